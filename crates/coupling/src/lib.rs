@@ -1,0 +1,21 @@
+//! The hybrid solution algorithm: force compatibility between two subsystems, iterated at every macro step.
+//!
+//! Start with [`iteration`]; [`subsystem::Subsystem`] is all it needs of either side. [`model::Model`] is what the
+//! project's own physics provides, [`instance::Instance`] gives a model the life cycle of an FMI 2.0 co-simulation slave,
+//! and [`in_process::InProcess`] couples such an instance without any FMU in between.
+//! Standard library only.
+
+pub mod acceleration;
+pub mod in_process;
+pub mod instance;
+pub mod interface;
+pub mod iteration;
+pub mod model;
+pub mod predictor;
+pub mod subsystem;
+
+pub use in_process::InProcess;
+pub use instance::Instance;
+pub use interface::{Causality, Interface, Kind, Values, Variable};
+pub use model::{Model, ModelError};
+pub use subsystem::{Failure, Subsystem};

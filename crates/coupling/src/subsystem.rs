@@ -1,0 +1,59 @@
+//! The only view the iteration has of a subsystem: six verbs over two vectors.
+
+/// A subsystem that did not do what it was asked.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Failure {
+    /// Which subsystem, e.g. the FMU's model name.
+    pub subsystem: String,
+    /// What it was asked, what it answered, what it logged.
+    pub message: String,
+}
+
+impl std::fmt::Display for Failure {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "{}: {}", self.subsystem, self.message)
+    }
+}
+impl std::error::Error for Failure {}
+
+/// One side of the interface, seen as FMI 2.0 sees it. Vectors are in the order of the connections.
+pub trait Subsystem {
+    /// Sets the coupled inputs: values at t_n and, if `rates` is given, their first derivatives over the coming step.
+    ///
+    /// # Errors
+    /// The subsystem refuses.
+    fn set_inputs(&mut self, values: &[f64], rates: Option<&[f64]>) -> Result<(), Failure>;
+
+    /// Reads the coupled outputs: at the end of the last step, or in static equilibrium during initialization.
+    ///
+    /// # Errors
+    /// The subsystem refuses.
+    fn get_outputs(&mut self, outputs: &mut [f64]) -> Result<(), Failure>;
+
+    /// Ends initialization.
+    ///
+    /// # Errors
+    /// The subsystem cannot start.
+    fn exit_initialization(&mut self) -> Result<(), Failure>;
+
+    /// One macro step from t to t + h; `may_restore` is true while the caller may still roll back behind t.
+    ///
+    /// # Errors
+    /// The step failed; what that means for the run is the caller's decision.
+    fn step(&mut self, t: f64, h: f64, may_restore: bool) -> Result<(), Failure>;
+
+    /// Saves the state into the subsystem's one slot.
+    ///
+    /// # Errors
+    /// The subsystem cannot.
+    fn save(&mut self) -> Result<(), Failure>;
+
+    /// Restores the slot's state.
+    ///
+    /// # Errors
+    /// The subsystem cannot.
+    fn restore(&mut self) -> Result<(), Failure>;
+
+    /// Whether [`Subsystem::set_inputs`] understands rates.
+    fn can_interpolate(&self) -> bool;
+}

@@ -1,0 +1,4 @@
+//! Scenario files: types, JSON Schema, checks, bundled data; no solver.
+
+pub mod spec;
+pub mod types;

@@ -1,0 +1,142 @@
+//! A checked scenario with every reference resolved: what the physics is built from, and what lies in an FMU's resources.
+
+use serde::{Deserialize, Serialize};
+
+use crate::types::{Car, Contact, Damping, Frame, Newmark, Point, Ramp, Span, TrackType, Wave};
+
+/// All the train–track subsystem is built from (`resources/train-track.json`).
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct TrainTrackSpec {
+    /// Cars from the front.
+    pub cars: Vec<Car>,
+    /// Abscissa of the leading wheel at the start, m.
+    pub front_wheel: f64,
+    /// Speed points (time s after the start, m/s), at least one, times increasing.
+    pub speed: Vec<[f64; 2]>,
+    /// Pre-roll of the cars, m.
+    pub pre_roll: f64,
+    /// Contact.
+    pub contact: Contact,
+    /// Rail, supports, spacing.
+    pub track: TrackType,
+    /// Abscissa of the first support, m.
+    pub from: f64,
+    /// Number of bays.
+    pub bays: usize,
+    /// Rail elements per bay.
+    pub elements_per_bay: usize,
+    /// Local rail compliance.
+    pub local_compliance: bool,
+    /// The supports (0-based, increasing) that rest on the bridge; the others rest on the ground.
+    pub on_bridge: Vec<usize>,
+    /// Irregularity.
+    pub irregularity: Profile,
+    /// Factor on the irregularity.
+    pub irregularity_scale: f64,
+    /// Step and end, s.
+    pub step: f64,
+    /// End of the run, s.
+    pub end: f64,
+    /// Newmark's parameters.
+    pub newmark: Newmark,
+}
+
+/// A resolved irregularity.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(tag = "type", rename_all = "kebab-case")]
+pub enum Profile {
+    /// Smooth.
+    None,
+    /// Waves a sin(2π (x − origin)/λ + φ).
+    Waves {
+        /// The waves.
+        waves: Vec<Wave>,
+        /// m.
+        origin: f64,
+        /// How they begin.
+        ramp: Option<Ramp>,
+    },
+    /// A random sample of a power spectral density, drawn when the model is built (the seed is a parameter).
+    Spectrum {
+        /// S(Ω), one-sided.
+        density: Density,
+        /// Seed.
+        seed: u64,
+        /// Shortest and longest wavelength, m.
+        wavelengths: [f64; 2],
+        /// How it begins; `None`: over 20 m where the wheels' way begins.
+        ramp: Option<Ramp>,
+    },
+    /// Samples (x, r), x increasing, m; constant outside.
+    Samples {
+        /// Abscissae.
+        x: Vec<f64>,
+        /// Values.
+        r: Vec<f64>,
+        /// How it begins.
+        ramp: Option<Ramp>,
+    },
+}
+
+/// A one-sided power spectral density.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(tag = "form", rename_all = "kebab-case")]
+pub enum Density {
+    /// S(Ω) = A Ω_c² / [(Ω² + Ω_r²)(Ω² + Ω_c²)], m²/(rad/m).
+    German {
+        /// A, m rad.
+        a: f64,
+        /// Ω_c, rad/m.
+        omega_c: f64,
+        /// Ω_r, rad/m.
+        omega_r: f64,
+    },
+    /// S(n) = A / (1 + n/n₀)³, m²/(1/m), n in 1/m.
+    Sncf {
+        /// A, m³.
+        a: f64,
+        /// n₀, 1/m.
+        n0: f64,
+    },
+    /// S(n) = A_i / n^{k_i} in mm²/(1/m) on pieces of n in 1/m.
+    PowerLaws {
+        /// Pieces (upper limit of n, A_i, k_i); the last limit is infinite (`null`).
+        pieces: Vec<(Option<f64>, f64, f64)>,
+    },
+}
+
+/// All the bridge subsystem is built from (`resources/bridge.json`).
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct BridgeSpec {
+    /// What carries.
+    pub structure: StructureSpec,
+    /// Damping.
+    pub damping: Damping,
+    /// Solve in this many modes; `None`: all degrees of freedom.
+    pub modes: Option<usize>,
+    /// Where the track's supports stand on the deck, m from the bridge's begin, increasing.
+    pub supports: Vec<f64>,
+    /// Monitored points.
+    pub points: Vec<Point>,
+    /// Step, s.
+    pub step: f64,
+    /// End of the run, s.
+    pub end: f64,
+    /// Newmark's parameters.
+    pub newmark: Newmark,
+}
+
+/// What carries, references resolved.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(tag = "type", rename_all = "kebab-case")]
+pub enum StructureSpec {
+    /// Spans of beams.
+    Beams {
+        /// Spans in track order.
+        spans: Vec<Span>,
+        /// Continuous over the inner bearings.
+        continuous: bool,
+    },
+    /// A plane frame.
+    Frame(Frame),
+}

@@ -1,0 +1,271 @@
+//! Bridge: spans of beams, or a plane frame with trusses.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// Damping of the bridge.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(tag = "type", rename_all = "kebab-case")]
+#[schemars(deny_unknown_fields)]
+pub enum Damping {
+    /// None.
+    None,
+    /// C = αM + βK with the ratio met at two frequencies.
+    Rayleigh {
+        /// ζ.
+        #[schemars(range(min = 0, max = 1))]
+        ratio: f64,
+        /// The two frequencies.
+        at: RayleighAt,
+    },
+    /// The same ratio in the lowest modes, nothing in the others.
+    Modal {
+        /// ζ.
+        #[schemars(range(min = 0, max = 1))]
+        ratio: f64,
+        /// Number of modes.
+        #[schemars(range(min = 1, max = 1000))]
+        modes: usize,
+    },
+}
+
+/// Where Rayleigh damping meets its ratio.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum RayleighAt {
+    /// Two frequencies, Hz.
+    Hz([f64; 2]),
+    /// Two modes, counted from 1.
+    Modes([usize; 2]),
+    /// The first frequency and this multiple of it.
+    FirstTimes(#[schemars(extend("exclusiveMinimum" = 1))] f64),
+}
+
+/// A monitored point: outputs `point[NAME].displacement`, `.velocity`, `.acceleration` and, on a deck, `.moment`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[schemars(deny_unknown_fields)]
+pub struct Point {
+    /// Name: letters, digits, `-`, `_`.
+    #[schemars(regex(pattern = r"^[A-Za-z0-9_-]+$"))]
+    pub name: String,
+    /// Distance from the bridge's begin along the deck, m.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub x: Option<f64>,
+    /// Or a named node of a frame.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub node: Option<String>,
+    /// Direction of the motion at a node: `z` (down, default) or `x`.
+    #[serde(default)]
+    pub direction: Direction,
+}
+
+/// Direction of a motion.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Direction {
+    /// Down.
+    #[default]
+    Z,
+    /// Along the track.
+    X,
+}
+
+/// Where the track's supports over a bearing line go.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum OverBearings {
+    /// To the ground.
+    #[default]
+    Ground,
+    /// To the deck (the abutment lines stay on the ground).
+    Deck,
+}
+
+/// One span of a beam bridge.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[schemars(deny_unknown_fields)]
+pub struct Span {
+    /// m.
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub length: f64,
+    /// EI, N m².
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub bending_stiffness: f64,
+    /// kg/m.
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub mass: f64,
+    /// κGA, N; absent: Euler–Bernoulli, present: Timoshenko.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub shear_stiffness: Option<f64>,
+    /// Number of beam elements.
+    #[schemars(range(min = 2, max = 100000))]
+    pub elements: usize,
+}
+
+/// A material and cross-section of a frame member (both cable planes, both girders … summed into the plane).
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[schemars(deny_unknown_fields)]
+pub struct Section {
+    /// Name.
+    pub name: String,
+    /// E, N/m².
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub modulus: f64,
+    /// A, m².
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub area: f64,
+    /// I, m⁴; not needed for trusses.
+    #[serde(default)]
+    #[schemars(range(min = 0))]
+    pub inertia: f64,
+    /// κGA, N; absent: Euler–Bernoulli, present: Timoshenko.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub shear_stiffness: Option<f64>,
+    /// Mass per length, dead loads included, kg/m.
+    #[schemars(range(min = 0))]
+    pub mass: f64,
+}
+
+/// A named node.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[schemars(deny_unknown_fields)]
+pub struct Node {
+    /// Name.
+    pub name: String,
+    /// Along the track, from the bridge's begin, m.
+    pub x: f64,
+    /// Down, from the deck's axis, m.
+    pub z: f64,
+    /// Fixed directions, a list of `x`, `z`, `rotation`; absent: free.
+    #[serde(default)]
+    pub fixed: Vec<Fixity>,
+}
+
+/// A direction held by a bearing.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Fixity {
+    /// Along the track.
+    X,
+    /// Vertical.
+    Z,
+    /// Rotation.
+    Rotation,
+}
+
+/// A straight member between two named nodes.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[schemars(deny_unknown_fields)]
+pub struct Member {
+    /// Its two nodes.
+    pub nodes: [String; 2],
+    /// Name of its section.
+    pub section: String,
+    /// Beam, truss or cable.
+    #[serde(default)]
+    pub kind: MemberKind,
+    /// Number of elements (beams only).
+    #[serde(default = "one")]
+    #[schemars(range(min = 1, max = 10000))]
+    pub elements: usize,
+    /// Cables: tension in N for Ernst's equivalent modulus; weight from the section's mass.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub tension: Option<f64>,
+    /// The member is part of the deck that carries the track.
+    #[serde(default)]
+    pub deck: bool,
+    /// Hinges at its begin and end.
+    #[serde(default)]
+    pub hinged: [bool; 2],
+}
+
+/// Kind of a member.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum MemberKind {
+    /// Bending and axial force.
+    #[default]
+    Beam,
+    /// Axial force only.
+    Truss,
+    /// Axial force only, Ernst's equivalent modulus from tension and horizontal length.
+    Cable,
+}
+
+/// A plane frame.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[schemars(deny_unknown_fields)]
+pub struct Frame {
+    /// Sections by name.
+    #[schemars(length(min = 1))]
+    pub sections: Vec<Section>,
+    /// Nodes by name.
+    #[schemars(length(min = 2))]
+    pub nodes: Vec<Node>,
+    /// Members.
+    #[schemars(length(min = 1))]
+    pub members: Vec<Member>,
+    /// Where the data come from.
+    #[serde(default)]
+    pub source: String,
+}
+
+/// A bundled frame by name, or its data.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(untagged)]
+pub enum FrameChoice {
+    /// Name of a bundled frame, such as `cable-stayed-224`.
+    Bundled(String),
+    /// The frame.
+    Data(Box<Frame>),
+}
+
+/// What carries.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(tag = "type", rename_all = "kebab-case")]
+#[schemars(deny_unknown_fields)]
+pub enum Structure {
+    /// Spans of beams in a row, each simply supported, or continuous over the inner bearings.
+    Beams {
+        /// The spans in track order.
+        #[schemars(length(min = 1))]
+        spans: Vec<Span>,
+        /// One continuous beam.
+        #[serde(default)]
+        continuous: bool,
+    },
+    /// A plane frame with trusses and cables.
+    Frame {
+        /// The frame.
+        frame: FrameChoice,
+    },
+}
+
+/// The bridge.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[schemars(deny_unknown_fields)]
+pub struct Bridge {
+    /// Abscissa of its begin (first abutment line), m.
+    pub at: f64,
+    /// What carries.
+    pub structure: Structure,
+    /// Damping.
+    pub damping: Damping,
+    /// Monitored points.
+    #[serde(default)]
+    pub points: Vec<Point>,
+    /// Track supports over inner bearings.
+    #[serde(default)]
+    pub over_bearings: OverBearings,
+    /// Solve in this many lowest modes instead of all degrees of freedom.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 1, max = 1000))]
+    pub modes: Option<usize>,
+}
+
+fn one() -> usize {
+    1
+}

@@ -1,0 +1,13 @@
+//! The scenario file as types; the doc comments are the JSON Schema's descriptions.
+
+mod bridge;
+mod irregularity;
+mod run;
+mod track;
+mod train;
+
+pub use bridge::*;
+pub use irregularity::*;
+pub use run::*;
+pub use track::*;
+pub use train::*;

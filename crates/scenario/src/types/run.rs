@@ -1,0 +1,175 @@
+//! Time, coupling and output settings, and the scenario as a whole.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::bridge::Bridge;
+use super::irregularity::Irregularity;
+use super::track::Track;
+use super::train::{Contact, Train};
+
+/// Newmark's parameters.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[schemars(deny_unknown_fields)]
+#[serde(default)]
+pub struct Newmark {
+    /// γ ≥ 1/2.
+    #[schemars(range(min = 0.5, max = 1))]
+    pub gamma: f64,
+    /// β > 0; unconditionally stable for β ≥ (γ + 1/2)²/4.
+    #[schemars(extend("exclusiveMinimum" = 0), range(max = 1))]
+    pub beta: f64,
+}
+
+impl Default for Newmark {
+    fn default() -> Self {
+        Self { gamma: 0.5, beta: 0.25 }
+    }
+}
+
+/// Time axis.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[schemars(deny_unknown_fields)]
+pub struct Time {
+    /// Step h, s.
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub step: f64,
+    /// End of the run, s; the last step is shortened to hit it.
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub end: f64,
+    /// Newmark's parameters.
+    #[serde(default)]
+    pub newmark: Newmark,
+}
+
+/// How the next trial force follows from the residual.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Method {
+    /// λ ← G(λ): the paper's.
+    FixedPoint,
+    /// Aitken's dynamic relaxation.
+    #[default]
+    Aitken,
+}
+
+/// First trial force of a step.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Predictor {
+    /// λ_n.
+    Constant,
+    /// 2 λ_n − λ_{n−1}.
+    #[default]
+    Linear,
+}
+
+/// How a trial force over the step is sent.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Send {
+    /// As rate where both FMUs declare canInterpolateInputs, else as mean.
+    #[default]
+    Auto,
+    /// λ_n and the derivative (λ − λ_n)/h.
+    Rate,
+    /// The held mean (λ_n + λ)/2.
+    Mean,
+}
+
+/// What to do with a step whose iteration does not converge.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum OnFailure {
+    /// Stop with exit code 3; results so far are kept.
+    #[default]
+    Stop,
+    /// Repeat it in two halves, down to a sixteenth of the step, then stop.
+    Halve,
+    /// Go on and count it.
+    Accept,
+}
+
+/// The force-compatibility iteration.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[schemars(deny_unknown_fields)]
+#[serde(default)]
+pub struct CouplingSettings {
+    /// Acceleration of the iteration.
+    pub method: Method,
+    /// First trial.
+    pub predictor: Predictor,
+    /// ‖G(λ) − λ‖₂ ≤ tolerance · max(‖G(λ)‖₂, one axle load).
+    #[schemars(extend("exclusiveMinimum" = 0), range(max = 0.1))]
+    pub tolerance: f64,
+    /// Trials per step.
+    #[schemars(range(min = 1, max = 1000))]
+    pub max_iterations: usize,
+    /// How trial forces are sent.
+    pub send: Send,
+    /// Policy for a step that does not converge.
+    pub on_failure: OnFailure,
+}
+
+impl Default for CouplingSettings {
+    fn default() -> Self {
+        Self {
+            method: Method::Aitken,
+            predictor: Predictor::Linear,
+            tolerance: 1e-6,
+            max_iterations: 30,
+            send: Send::Auto,
+            on_failure: OnFailure::Stop,
+        }
+    }
+}
+
+/// What goes into results.csv.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[schemars(deny_unknown_fields)]
+#[serde(default)]
+pub struct Output {
+    /// Every how many steps a row is written.
+    #[schemars(range(min = 1))]
+    pub every: usize,
+    /// Also the force, displacement and velocity of every support.
+    pub supports: bool,
+}
+
+impl Default for Output {
+    fn default() -> Self {
+        Self { every: 1, supports: false }
+    }
+}
+
+/// A complete run: train, track, bridge, irregularity, time, coupling, output. SI units; z positive down.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[schemars(deny_unknown_fields)]
+pub struct Scenario {
+    /// JSON Schema of this file, for editors; ignored.
+    #[serde(rename = "$schema", default, skip_serializing_if = "Option::is_none")]
+    pub schema: Option<String>,
+    /// One line for people.
+    #[serde(default)]
+    pub title: String,
+    /// The train.
+    pub train: Train,
+    /// Wheel–rail contact.
+    #[serde(default)]
+    pub contact: Contact,
+    /// The track.
+    pub track: Track,
+    /// Track irregularity.
+    #[serde(default)]
+    pub irregularity: Irregularity,
+    /// The bridge.
+    pub bridge: Bridge,
+    /// Time axis.
+    pub time: Time,
+    /// The iteration.
+    #[serde(default)]
+    pub coupling: CouplingSettings,
+    /// Results.
+    #[serde(default)]
+    pub output: Output,
+}

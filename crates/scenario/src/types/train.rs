@@ -1,0 +1,144 @@
+//! Train, contact and speed.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// One car with 10 degrees of freedom. Springs and dashpots are those of a whole bogie (secondary) or a whole
+/// wheelset (primary), both sides summed.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[schemars(deny_unknown_fields)]
+pub struct Car {
+    /// Name for messages and the summary.
+    #[serde(default)]
+    pub name: String,
+    /// M_c, kg.
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub body_mass: f64,
+    /// J_c, pitch inertia of the body, kg m².
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub body_inertia: f64,
+    /// M_b, kg.
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub bogie_mass: f64,
+    /// J_b, pitch inertia of a bogie, kg m².
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub bogie_inertia: f64,
+    /// M_w, kg.
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub wheelset_mass: f64,
+    /// k_s, N/m per bogie.
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub secondary_stiffness: f64,
+    /// c_s, N s/m per bogie.
+    #[schemars(range(min = 0))]
+    pub secondary_damping: f64,
+    /// k_p, N/m per axle.
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub primary_stiffness: f64,
+    /// c_p, N s/m per axle.
+    #[schemars(range(min = 0))]
+    pub primary_damping: f64,
+    /// 2 L_c, m.
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub bogie_distance: f64,
+    /// 2 L_t, m.
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub wheelbase: f64,
+    /// Length over couplers, m: the pitch to the next car.
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub length: f64,
+    /// Where the data come from.
+    #[serde(default)]
+    pub source: String,
+}
+
+/// A bundled car by name, or its data.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(untagged)]
+pub enum CarChoice {
+    /// Name of a bundled car, such as `ice3-motor`.
+    Bundled(String),
+    /// The car's data.
+    Data(Box<Car>),
+}
+
+/// Train speed.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub enum Speed {
+    /// Constant, km/h.
+    #[serde(rename = "km_h")]
+    KmH(#[schemars(range(min = 0, max = 1000))] f64),
+    /// Constant, m/s.
+    #[serde(rename = "m_s")]
+    MS(#[schemars(range(min = 0, max = 300))] f64),
+    /// Points (time s, speed m/s), linear in between, constant outside.
+    #[serde(rename = "profile")]
+    Profile(#[schemars(length(min = 1))] Vec<[f64; 2]>),
+}
+
+/// The train: cars from the front, and how it runs.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[schemars(deny_unknown_fields)]
+pub struct Train {
+    /// Cars, the leading one first.
+    #[schemars(length(min = 1))]
+    pub cars: Vec<CarChoice>,
+    /// Abscissa of the leading wheel at the start, m.
+    pub front_wheel: f64,
+    /// Train speed.
+    pub speed: Speed,
+    /// Distance in m over which the cars alone are rolled over the irregularity, on the track's static stiffness,
+    /// before the run starts, so that they do not ring from a start at rest; 0: start at rest.
+    #[serde(default)]
+    #[schemars(range(min = 0))]
+    pub pre_roll: f64,
+}
+
+/// Law of the wheel–rail contact.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum ContactLaw {
+    /// F = (δ/G)^{3/2} for δ > 0, else 0.
+    #[default]
+    Hertz,
+    /// The Hertz law's tangent at the static wheel load, cut at 0.
+    Linear,
+}
+
+/// Wheel–rail contact.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[schemars(deny_unknown_fields)]
+#[serde(default)]
+pub struct Contact {
+    /// Nonlinear Hertz with lift-off, or its linearisation.
+    pub law: ContactLaw,
+    /// Contacts that share an axle's load: 2 wheels (default), or 1.
+    #[schemars(range(min = 1, max = 2))]
+    pub wheels_per_axle: u32,
+    /// Hertz constant G, m/N^{2/3}; if absent, from the tread and the wheel radius.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub hertz_constant: Option<f64>,
+    /// Tread: worn G = 3.86e-8 R^-0.115, conical G = 4.57e-8 R^-0.149.
+    pub tread: Tread,
+    /// Wheel radius R, m.
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub wheel_radius: f64,
+}
+
+/// Wheel tread.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Tread {
+    /// Worn profile.
+    #[default]
+    Worn,
+    /// Conical profile.
+    Conical,
+}
+
+impl Default for Contact {
+    fn default() -> Self {
+        Self { law: ContactLaw::Hertz, wheels_per_axle: 2, hertz_constant: None, tread: Tread::Worn, wheel_radius: 0.46 }
+    }
+}

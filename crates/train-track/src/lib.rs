@@ -1,0 +1,1 @@
+//! the train-track subsystem.

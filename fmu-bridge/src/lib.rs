@@ -1,0 +1,1 @@
+//! Filled by the FMI layer.

@@ -1,0 +1,2 @@
+//! x
+fn main(){println!("{:?}", std::env::current_exe());}

@@ -1,0 +1,1 @@
+//! modelDescription.xml and FMU packaging.
