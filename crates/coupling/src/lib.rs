@@ -17,5 +17,6 @@ pub mod subsystem;
 pub use in_process::InProcess;
 pub use instance::Instance;
 pub use interface::{Causality, Interface, Kind, Values, Variable};
+pub use iteration::{Coupling, IterationError, Outcome, Settings, StepInfo};
 pub use model::{Model, ModelError};
 pub use subsystem::{Failure, Subsystem};

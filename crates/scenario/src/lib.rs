@@ -1,4 +1,25 @@
 //! Scenario files: types, JSON Schema, checks, bundled data; no solver.
+//!
+//! [`load()`] reads a scenario file and gives [`Checked`]: two specs, from which the physics crates build their models, or
+//! [`Problems`]: everything that is wrong with the file, each with its place and the rule it breaks.
 
+pub mod bundled;
+mod check;
+pub mod deck;
+mod density;
+mod json;
+mod load;
+mod measured;
+mod pieces;
+mod problem;
+mod resolve;
+mod schema;
 pub mod spec;
+pub mod travel;
 pub mod types;
+mod walk;
+
+pub use bundled::default_scenario_text;
+pub use load::{Checked, GRAVITY, from_str, load};
+pub use problem::{Problem, Problems};
+pub use schema::schema;

@@ -3,6 +3,8 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::bundled::frame_names;
+
 /// Damping of the bridge.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(tag = "type", rename_all = "kebab-case")]
@@ -41,12 +43,15 @@ pub enum RayleighAt {
     FirstTimes(#[schemars(extend("exclusiveMinimum" = 1))] f64),
 }
 
+/// What a name that becomes part of a variable's name looks like.
+pub const NAME_PATTERN: &str = r"^[A-Za-z0-9_-]+$";
+
 /// A monitored point: outputs `point[NAME].displacement`, `.velocity`, `.acceleration` and, on a deck, `.moment`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[schemars(deny_unknown_fields)]
 pub struct Point {
     /// Name: letters, digits, `-`, `_`.
-    #[schemars(regex(pattern = r"^[A-Za-z0-9_-]+$"))]
+    #[schemars(regex(pattern = NAME_PATTERN))]
     pub name: String,
     /// Distance from the bridge's begin along the deck, m.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -144,7 +149,7 @@ pub struct Node {
 }
 
 /// A direction held by a bearing.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Fixity {
     /// Along the track.
@@ -218,7 +223,7 @@ pub struct Frame {
 #[serde(untagged)]
 pub enum FrameChoice {
     /// Name of a bundled frame, such as `cable-stayed-224`.
-    Bundled(String),
+    Bundled(#[schemars(extend("enum" = frame_names().collect::<Vec<_>>()))] String),
     /// The frame.
     Data(Box<Frame>),
 }

@@ -3,6 +3,8 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::bundled::spectrum_names;
+
 /// How an irregularity begins.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[schemars(deny_unknown_fields)]
@@ -67,6 +69,7 @@ pub enum Irregularity {
     /// A random sample of a spectrum.
     Spectrum {
         /// Name of a bundled spectrum, such as `german-low`.
+        #[schemars(extend("enum" = spectrum_names().collect::<Vec<_>>()))]
         spectrum: String,
         /// Seed of the random phases.
         seed: u64,

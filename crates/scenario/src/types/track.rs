@@ -3,6 +3,8 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::bundled::track_names;
+
 /// Both rails as one beam.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[schemars(deny_unknown_fields)]
@@ -97,7 +99,7 @@ pub struct TrackType {
 #[serde(untagged)]
 pub enum TrackChoice {
     /// Name of a bundled track type, such as `slab` or `ballast-zhai`.
-    Bundled(String),
+    Bundled(#[schemars(extend("enum" = track_names().collect::<Vec<_>>()))] String),
     /// The data.
     Data(Box<TrackType>),
 }

@@ -3,6 +3,8 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::bundled::train_names;
+
 /// One car with 10 degrees of freedom. Springs and dashpots are those of a whole bogie (secondary) or a whole
 /// wheelset (primary), both sides summed.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -56,8 +58,8 @@ pub struct Car {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(untagged)]
 pub enum CarChoice {
-    /// Name of a bundled car, such as `ice3-motor`.
-    Bundled(String),
+    /// Name of a bundled car, such as `ice3-motor`, or of a bundled train, which stands for all its cars.
+    Bundled(#[schemars(extend("enum" = train_names().collect::<Vec<_>>()))] String),
     /// The car's data.
     Data(Box<Car>),
 }
@@ -139,6 +141,12 @@ pub enum Tread {
 
 impl Default for Contact {
     fn default() -> Self {
-        Self { law: ContactLaw::Hertz, wheels_per_axle: 2, hertz_constant: None, tread: Tread::Worn, wheel_radius: 0.46 }
+        Self {
+            law: ContactLaw::Hertz,
+            wheels_per_axle: 2,
+            hertz_constant: None,
+            tread: Tread::Worn,
+            wheel_radius: 0.46,
+        }
     }
 }

@@ -1,0 +1,268 @@
+//! Lowest natural modes, K φ = ω² M φ, by shift-invert Lanczos in the inner product of M with full reorthogonalisation.
+//!
+//! ```text
+//! A = K⁻¹M,   v_iᵀ M v_j = δ_ij
+//! A v_j = Σ_{i ≤ j+b} t_ij v_i                 every v_j in turn; what is left of A v_j becomes a new v
+//! T s = θ s   →   ω² = 1/θ,  φ = V s           residual ‖Aφ − θφ‖_M = ‖ rows of t beyond T times s ‖
+//! ```
+//!
+//! b start vectors run in a queue (a band Lanczos process), so that modes that come up to b times, as on a row of equal
+//! spans, are all met. Converged values are believed only when the count of eigenvalues below the last one, from the
+//! inertia of K − σM, agrees; otherwise fresh start vectors join. Everything is deterministic. (Grimes, Lewis & Simon,
+//! SIAM J. Matrix Anal. Appl. 15, 1994, 228–272.)
+
+use nalgebra::{DMatrix, SymmetricEigen};
+
+use crate::factor::Factor;
+use crate::sparse::Pencil;
+
+/// Modes, lowest first.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Modes {
+    /// ω², (rad/s)².
+    pub omega2: Vec<f64>,
+    /// φ, M-normalised (φᵀMφ = 1 kg), each with its largest entry positive.
+    pub shapes: Vec<Vec<f64>>,
+}
+
+impl Modes {
+    /// Natural frequencies, Hz.
+    pub fn frequencies(&self) -> impl Iterator<Item = f64> {
+        self.omega2.iter().map(|w2| w2.sqrt() / std::f64::consts::TAU)
+    }
+}
+
+/// Why modes were not found.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum ModesError {
+    /// More than there are.
+    #[error("{asked} modes were asked for, the model has {available}")]
+    TooMany {
+        /// Asked for.
+        asked: usize,
+        /// Degrees of freedom with mass.
+        available: usize,
+    },
+}
+
+/// Start vectors b.
+const QUEUE: usize = 4;
+/// Residual of A φ = θ φ relative to θ. The error of ω² is its square.
+const TOLERANCE: f64 = 1e-9;
+/// A new vector shorter than this, relative to A v before the orthogonalisation, is rounding.
+const DEFLATION: f64 = 1e-12;
+
+/// The `count` lowest modes; `stiffness` is the factor of K.
+///
+/// # Errors
+/// [`ModesError::TooMany`].
+pub fn lowest(pencil: &Pencil, stiffness: &Factor, count: usize) -> Result<Modes, ModesError> {
+    let mut lanczos = Lanczos::new(pencil, stiffness);
+    lanczos.invite(QUEUE);
+    let mut check_at = 2 * count + 2 * QUEUE;
+    loop {
+        while lanczos.t.len() < check_at && lanczos.advance() {}
+        let complete = lanczos.t.len() < check_at;
+        if complete && lanczos.t.len() < count {
+            return Err(ModesError::TooMany { asked: count, available: lanczos.t.len() });
+        }
+        if let Some(modes) = lanczos.converged(count, complete) {
+            return Ok(modes);
+        }
+        check_at += check_at / 4 + QUEUE;
+    }
+}
+
+struct Lanczos<'a> {
+    pencil: &'a Pencil,
+    stiffness: &'a Factor,
+    /// v_j; the first `t.len()` are processed, the others wait.
+    basis: Vec<Vec<f64>>,
+    /// t_ij by columns j, over the basis as it was when v_j was processed.
+    t: Vec<Vec<f64>>,
+    random: u64,
+    scratch: Vec<f64>,
+}
+
+impl<'a> Lanczos<'a> {
+    fn new(pencil: &'a Pencil, stiffness: &'a Factor) -> Self {
+        let scratch = vec![0.0; pencil.ndof()];
+        Self { pencil, stiffness, basis: Vec::new(), t: Vec::new(), random: 0, scratch }
+    }
+
+    /// M x.
+    fn mass(&self, x: &[f64]) -> Vec<f64> {
+        let mut y = vec![0.0; x.len()];
+        self.pencil.add_mass(x, &mut y);
+        y
+    }
+
+    /// A x = K⁻¹ M x.
+    fn operator(&mut self, x: &[f64]) -> Vec<f64> {
+        let mut y = self.mass(x);
+        self.stiffness.solve_in_place(&mut y, &mut self.scratch);
+        y
+    }
+
+    /// Adds start vectors to the queue, as many as the space still has room for.
+    fn invite(&mut self, vectors: usize) {
+        for _ in 0..vectors {
+            let x: Vec<f64> = (0..self.pencil.ndof()).map(|_| self.draw()).collect();
+            // One application of A takes out what has no mass.
+            let x = self.operator(&x);
+            self.admit(x);
+        }
+    }
+
+    /// Splits x into its part in the basis and a rest, which joins the basis; returns all coefficients.
+    fn admit(&mut self, mut x: Vec<f64>) -> Vec<f64> {
+        let mut coefficients = vec![0.0; self.basis.len()];
+        let before = dot(&x, &self.mass(&x)).max(0.0).sqrt();
+        // Twice is enough (Parlett, section 6.9).
+        for _ in 0..2 {
+            let mx = self.mass(&x);
+            let h: Vec<f64> = self.basis.iter().map(|v| dot(v, &mx)).collect();
+            for ((v, h), sum) in self.basis.iter().zip(&h).zip(&mut coefficients) {
+                x.iter_mut().zip(v).for_each(|(x, v)| *x -= h * v);
+                *sum += h;
+            }
+        }
+        let rest = dot(&x, &self.mass(&x)).max(0.0).sqrt();
+        if rest > DEFLATION * before && self.basis.len() < x.len() {
+            x.iter_mut().for_each(|x| *x /= rest);
+            self.basis.push(x);
+            coefficients.push(rest);
+        }
+        coefficients
+    }
+
+    /// Processes the next vector of the queue; false when the basis is complete.
+    fn advance(&mut self) -> bool {
+        if self.t.len() == self.basis.len() {
+            self.invite(QUEUE);
+        }
+        let Some(v) = self.basis.get(self.t.len()).cloned() else { return false };
+        let av = self.operator(&v);
+        let column = self.admit(av);
+        self.t.push(column);
+        true
+    }
+
+    /// The modes, if all have converged and none is missing; otherwise new start vectors may have joined.
+    fn converged(&mut self, count: usize, complete: bool) -> Option<Modes> {
+        let p = self.t.len();
+        let t = DMatrix::from_fn(p, p, |i, j| self.t[i.max(j)].get(i.min(j)).copied().unwrap_or(0.0));
+        let eigen = SymmetricEigen::new(t);
+        let mut order: Vec<usize> = (0..p).collect();
+        order.sort_by(|&a, &b| eigen.eigenvalues[b].total_cmp(&eigen.eigenvalues[a]));
+        let omega2: Vec<f64> = order.iter().map(|&j| 1.0 / eigen.eigenvalues[j]).collect();
+        if !complete {
+            let residual = |&j: &usize| {
+                let s = eigen.eigenvectors.column(j);
+                let row = |i| self.t.iter().zip(s.iter()).map(|(t, s)| t.get(i).map_or(0.0, |t| t * s)).sum::<f64>();
+                (p..self.basis.len()).map(|i| row(i) * row(i)).sum::<f64>().sqrt() / eigen.eigenvalues[j]
+            };
+            if order[..count].iter().any(|j| residual(j) > TOLERANCE) {
+                return None;
+            }
+            // σ stands in the first clear gap above the last mode asked for.
+            let last = (count - 1..p - 1).find(|&j| omega2[j + 1] > 1.001 * omega2[j])?;
+            let sigma = (omega2[last] * omega2[last + 1]).sqrt();
+            if self.pencil.count_below(sigma) != Some(last + 1) {
+                self.invite(QUEUE);
+                return None;
+            }
+        }
+        let shapes = order[..count].iter().map(|&j| {
+            let mut shape = vec![0.0; self.pencil.ndof()];
+            for (v, s) in self.basis.iter().zip(eigen.eigenvectors.column(j).iter()) {
+                shape.iter_mut().zip(v).for_each(|(shape, v)| *shape += s * v);
+            }
+            let largest = shape.iter().fold(0.0_f64, |m, x| if x.abs() > m.abs() { *x } else { m });
+            shape.iter_mut().for_each(|x| *x *= largest.signum());
+            shape
+        });
+        let shapes = shapes.collect();
+        Some(Modes { omega2: omega2[..count].to_vec(), shapes })
+    }
+
+    /// Uniform in [−1, 1): splitmix64 (Steele, Lea & Flood, OOPSLA 2014).
+    fn draw(&mut self) -> f64 {
+        self.random = self.random.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.random;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+    }
+}
+
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sparse::Assembly;
+
+    /// `copies` separate chains of `n` unit springs and masses, fixed at the left.
+    fn chains(copies: u32, n: u32, massless: bool) -> Pencil {
+        let mut assembly = Assembly::new((copies * n) as usize);
+        for i in 0..copies * n {
+            let dofs = [i.checked_sub(1).filter(|_| i % n != 0), Some(i)];
+            let m = if massless && i % 2 == 0 { 0.0 } else { 1.0 };
+            assembly.add(&dofs, &[[1.0, -1.0], [-1.0, 1.0]], &[[0.0, 0.0], [0.0, m]]);
+        }
+        assembly.finish().unwrap()
+    }
+
+    fn omega2(j: usize, n: u32) -> f64 {
+        let angle = (2.0 * j as f64 - 1.0) * std::f64::consts::PI / (4.0 * f64::from(n) + 2.0);
+        4.0 * angle.sin().powi(2)
+    }
+
+    #[test]
+    fn a_chain_has_its_closed_form_modes() {
+        let pencil = chains(1, 200, false);
+        let modes = lowest(&pencil, &pencil.factor(1.0, 0.0).unwrap(), 12).unwrap();
+        for (j, w2) in modes.omega2.iter().enumerate() {
+            assert!((w2 / omega2(j + 1, 200) - 1.0).abs() < 1e-11, "mode {}: {w2}", j + 1);
+        }
+        for (i, a) in modes.shapes.iter().enumerate() {
+            let mut ma = vec![0.0; a.len()];
+            pencil.add_mass(a, &mut ma);
+            for (j, b) in modes.shapes.iter().enumerate() {
+                assert!((dot(&ma, b) - f64::from(u8::from(i == j))).abs() < 1e-12);
+            }
+        }
+    }
+
+    #[test]
+    fn every_copy_of_a_repeated_mode_is_found() {
+        let pencil = chains(11, 30, false);
+        let modes = lowest(&pencil, &pencil.factor(1.0, 0.0).unwrap(), 25).unwrap();
+        for (j, w2) in modes.omega2.iter().enumerate() {
+            assert!((w2 / omega2(j / 11 + 1, 30) - 1.0).abs() < 1e-10, "mode {}: {w2}", j + 1);
+        }
+    }
+
+    #[test]
+    fn all_modes_of_a_small_system_and_no_more() {
+        let pencil = chains(1, 5, false);
+        let factor = pencil.factor(1.0, 0.0).unwrap();
+        let modes = lowest(&pencil, &factor, 5).unwrap();
+        assert!(modes.omega2.iter().enumerate().all(|(j, w2)| (w2 / omega2(j + 1, 5) - 1.0).abs() < 1e-12));
+        assert_eq!(lowest(&pencil, &factor, 6), Err(ModesError::TooMany { asked: 6, available: 5 }));
+    }
+
+    #[test]
+    fn what_has_no_mass_has_no_mode() {
+        let pencil = chains(1, 8, true);
+        let factor = pencil.factor(1.0, 0.0).unwrap();
+        assert_eq!(lowest(&pencil, &factor, 5), Err(ModesError::TooMany { asked: 5, available: 4 }));
+        // Masses 1 at every second of springs 1: a chain of springs 1/2.
+        let modes = lowest(&pencil, &factor, 4).unwrap();
+        let expected = (1..=4).map(|j| 0.5 * omega2(j, 4));
+        assert!(modes.omega2.iter().zip(expected).all(|(a, b)| (a / b - 1.0).abs() < 1e-10), "{:?}", modes.omega2);
+    }
+}

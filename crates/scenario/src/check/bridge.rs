@@ -1,0 +1,107 @@
+//! Rules inside the section on the bridge.
+
+use std::collections::HashSet;
+
+use super::frame;
+use crate::deck::Deck;
+use crate::pieces::Pieces;
+use crate::problem::Report;
+use crate::resolve::Resolved;
+use crate::spec::StructureSpec;
+use crate::types::{Damping, Direction, FrameChoice, Point, RayleighAt, Structure};
+
+pub(super) fn check(pieces: &Pieces, resolved: &Resolved, report: &mut Report) {
+    // a bundled frame is right: a test checks it
+    if let Some(Structure::Frame { frame: FrameChoice::Data(frame) }) = &pieces.structure {
+        frame::check(frame, report);
+    }
+    if let Some(damping) = &pieces.damping {
+        rayleigh(damping, report);
+    }
+    if let Some(structure) = &resolved.structure {
+        modes(pieces, degrees_of_freedom(structure), report);
+    }
+    let mut names = HashSet::new();
+    for (i, point) in pieces.points.iter().enumerate() {
+        let Some(point) = point else { continue };
+        let path = format!("$.bridge.points[{i}]");
+        if !names.insert(&point.name) {
+            report.problem(format!("{path}.name"), "names of points must differ", format!("`{}`", point.name));
+        }
+        place(point, &path, resolved.structure.as_ref(), report);
+    }
+}
+
+/// A point lies on the deck or at a node of a frame.
+fn place(point: &Point, path: &str, structure: Option<&StructureSpec>, report: &mut Report) {
+    match (&point.x, &point.node) {
+        (Some(_), Some(_)) => report.problem(path, "a point has either x or node", "both"),
+        (None, None) => report.problem(path, "a point has either x or node", "neither"),
+        (Some(x), None) => {
+            let length = structure.and_then(Deck::new).map(|deck| deck.length);
+            if let Some(length) = length.filter(|length| *length > 0.0 && !(0.0..=*length).contains(x)) {
+                let found = format!("{x} m, the deck is {length} m long");
+                report.problem(format!("{path}.x"), "a point must lie on the bridge", found);
+            }
+            if point.direction == Direction::X {
+                report.problem(format!("{path}.direction"), "motion along the track is known at nodes only", "x");
+            }
+        }
+        (None, Some(name)) => match structure {
+            Some(StructureSpec::Frame(frame)) => frame::known_node(frame, name, &format!("{path}.node"), report),
+            Some(StructureSpec::Beams { .. }) => {
+                report.problem(format!("{path}.node"), "only frames have named nodes: give x", format!("`{name}`"));
+            }
+            None => {}
+        },
+    }
+}
+
+/// Rayleigh damping needs two different frequencies.
+fn rayleigh(damping: &Damping, report: &mut Report) {
+    let Damping::Rayleigh { at, .. } = damping else { return };
+    match at {
+        RayleighAt::Hz([a, b]) if !(*a > 0.0 && *b > 0.0 && a != b) => {
+            let rule = "the two frequencies must be positive and different";
+            report.problem("$.bridge.damping.at.hz", rule, format!("[{a}, {b}]"));
+        }
+        RayleighAt::Modes([a, b]) if *a == 0 || *b == 0 || a == b => {
+            let rule = "the two modes must be different and count from 1";
+            report.problem("$.bridge.damping.at.modes", rule, format!("[{a}, {b}]"));
+        }
+        _ => {}
+    }
+}
+
+/// No more modes than degrees of freedom.
+fn modes(pieces: &Pieces, freedoms: usize, report: &mut Report) {
+    let rule = format!("the structure has only {freedoms} modes");
+    if let Some(modes) = pieces.bridge.as_ref().and_then(|bridge| bridge.modes).filter(|modes| *modes > freedoms) {
+        report.problem("$.bridge.modes", &rule, modes);
+    }
+    match pieces.damping {
+        Some(Damping::Modal { modes, .. }) if modes > freedoms => {
+            report.problem("$.bridge.damping.modes", rule, modes);
+        }
+        Some(Damping::Rayleigh { at: RayleighAt::Modes(modes), .. }) if modes.iter().any(|mode| *mode > freedoms) => {
+            report.problem("$.bridge.damping.at.modes", rule, format!("{modes:?}"));
+        }
+        _ => {}
+    }
+}
+
+/// Degrees of freedom of a structure's model; of a frame an upper bound.
+fn degrees_of_freedom(structure: &StructureSpec) -> usize {
+    match structure {
+        StructureSpec::Beams { spans, continuous } => {
+            let elements: usize = spans.iter().map(|span| span.elements).sum();
+            // two per node, less one per bearing
+            if *continuous { 2 * (elements + 1) - (spans.len() + 1) } else { 2 * elements }
+        }
+        StructureSpec::Frame(frame) => {
+            let inner: usize = frame.members.iter().map(|member| member.elements.saturating_sub(1)).sum();
+            let fixed: usize = frame.nodes.iter().map(|node| node.fixed.len()).sum();
+            (3 * (frame.nodes.len() + inner)).saturating_sub(fixed)
+        }
+    }
+}

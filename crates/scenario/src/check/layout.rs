@@ -1,0 +1,135 @@
+//! Rules between train, track, bridge and time: the train stands and ends on the rail, the bridge lies within the track.
+
+use super::advice;
+use crate::deck::Deck;
+use crate::pieces::Pieces;
+use crate::problem::Report;
+use crate::resolve::Resolved;
+use crate::travel::{distance, wheel_offsets};
+use crate::types::{Bridge, Irregularity, Track};
+
+/// Relative slack for sums of lengths: a bridge may end exactly where the track ends.
+const ROUNDING: f64 = 1e-9;
+
+/// So many of the shortest waves fit into the table from which a random irregularity is read.
+const MOST_WAVES: f64 = 250_000.0;
+/// A random irregularity has at least this length, m.
+const LEAST_WAY: f64 = 2048.0;
+
+/// The rail as laid.
+pub(super) struct Rail {
+    /// Abscissa of the first support, m.
+    pub from: f64,
+    /// Abscissa of the last support, m.
+    pub to: f64,
+    /// m.
+    pub spacing: f64,
+    /// Length of an element, m.
+    pub element: f64,
+}
+
+/// The train's run.
+pub(super) struct Way {
+    /// Last wheel at the start, m.
+    pub rear: f64,
+    /// Leading wheel at the start, m.
+    pub front: f64,
+    /// Leading wheel at the end, m.
+    pub end: f64,
+    /// Pre-roll, m.
+    pub pre_roll: f64,
+}
+
+pub(super) fn check(pieces: &Pieces, resolved: &Resolved, report: &mut Report) {
+    let rail = rail(pieces, resolved);
+    let way = way(pieces, resolved);
+    if let (Some(rail), Some(track), Some(bridge), Some(structure)) =
+        (&rail, &pieces.track, &pieces.bridge, &resolved.structure)
+        && let Some(deck) = Deck::new(structure).filter(|deck| deck.length > 0.0)
+    {
+        bridge_on_track(rail, track, bridge, &deck, report);
+    }
+    if let (Some(rail), Some(way)) = (&rail, &way) {
+        train_on_rail(rail, way, report);
+    }
+    if let (Some(train), Some([[_, start], ..])) = (&pieces.train, resolved.speed.as_deref())
+        && train.pre_roll > 0.0
+        && *start == 0.0
+    {
+        report.problem("$.train.pre_roll", "a pre-roll needs a speed above 0 at the start", train.pre_roll);
+    }
+    if let Some(way) = &way
+        && let Some(Irregularity::Spectrum { wavelengths: [short, _], .. }) = pieces.irregularity
+        && short > 0.0
+    {
+        resolvable(way, short, report);
+    }
+    advice::give(pieces, resolved, rail.as_ref(), way.as_ref(), report);
+}
+
+/// The rail, if its numbers make sense.
+fn rail(pieces: &Pieces, resolved: &Resolved) -> Option<Rail> {
+    let (laid, track) = (pieces.track.as_ref()?, resolved.track.as_ref()?);
+    let to = laid.from + laid.bays as f64 * track.spacing;
+    let element = track.spacing / laid.elements_per_bay.max(1) as f64;
+    (track.spacing > 0.0).then_some(Rail { from: laid.from, to, spacing: track.spacing, element })
+}
+
+/// The train's run, if its numbers make sense.
+fn way(pieces: &Pieces, resolved: &Resolved) -> Option<Way> {
+    let (train, time) = (pieces.train.as_ref()?, pieces.time.as_ref()?);
+    let (cars, speed) = (resolved.cars.as_ref()?, resolved.speed.as_ref()?);
+    let sane = cars.iter().all(|car| car.length > 0.0 && car.bogie_distance > 0.0 && car.wheelbase > 0.0);
+    let moving = speed.iter().all(|[_, v]| *v >= 0.0) && speed.windows(2).all(|pair| pair[0][0] < pair[1][0]);
+    if !sane || !moving || time.end <= 0.0 {
+        return None;
+    }
+    let rear = train.front_wheel - wheel_offsets(cars).last()?;
+    let end = train.front_wheel + distance(speed, time.end);
+    Some(Way { rear, front: train.front_wheel, end, pre_roll: train.pre_roll })
+}
+
+fn resolvable(way: &Way, shortest: f64, report: &mut Report) {
+    let limit = (way.end - way.rear + way.pre_roll).max(LEAST_WAY) / MOST_WAVES;
+    if shortest < limit {
+        let rule = format!("the shortest wavelength must be at least {limit:.3} m on a way of this length");
+        report.problem("$.irregularity.wavelengths", rule, format!("{shortest} m"));
+    }
+}
+
+fn train_on_rail(rail: &Rail, way: &Way, report: &mut Report) {
+    let (train, track) = (way.front - way.rear, rail.to - rail.from);
+    if train > track {
+        let rule = "the train must not be longer than the track";
+        report.problem("$.track.bays", rule, format!("{train:.3} m from first to last wheel > {track:.3} m of rail"));
+        return;
+    }
+    if way.rear < rail.from {
+        let rule = "the whole train must stand on the rail at the start";
+        let found = format!("last wheel at {:.3} m, rail begins at {:.3} m", way.rear, rail.from);
+        report.problem("$.train.front_wheel", rule, found);
+    }
+    if way.front > rail.to {
+        let rule = "the whole train must stand on the rail at the start";
+        let found = format!("leading wheel at {:.3} m, rail ends at {:.3} m", way.front, rail.to);
+        report.problem("$.train.front_wheel", rule, found);
+    } else if way.end > rail.to {
+        let rule = "the whole train must be on the rail until the end of the run";
+        let found = format!("leading wheel at {:.3} m at the end, rail ends at {:.3} m", way.end, rail.to);
+        report.problem("$.time.end", rule, found);
+    }
+}
+
+fn bridge_on_track(rail: &Rail, track: &Track, bridge: &Bridge, deck: &Deck, report: &mut Report) {
+    let slack = ROUNDING * rail.spacing;
+    let end = bridge.at + deck.length;
+    if bridge.at < rail.from - slack || end > rail.to + slack {
+        let rule = "the bridge must lie within the track";
+        let found = format!("bridge {} to {} m, track {} to {} m", bridge.at, end, rail.from, rail.to);
+        report.problem("$.bridge.at", rule, found);
+    } else if deck.supports(bridge.at, rail.from, rail.spacing, track.bays + 1, bridge.over_bearings).is_empty() {
+        let rule = "at least one support of the track must rest on the bridge";
+        let found = format!("none between {} and {} m every {} m", bridge.at, end, rail.spacing);
+        report.problem("$.bridge", rule, found);
+    }
+}

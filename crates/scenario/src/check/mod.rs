@@ -1,0 +1,34 @@
+//! Rules between the fields of a scenario, which no schema can say. All of them are tried.
+
+mod advice;
+mod bridge;
+mod frame;
+mod graph;
+mod layout;
+mod run;
+
+use crate::pieces::Pieces;
+use crate::problem::Report;
+use crate::resolve::Resolved;
+
+/// Reports every broken rule, and as warnings what is allowed but rarely meant.
+pub(crate) fn check(pieces: &Pieces, resolved: &Resolved, report: &mut Report) {
+    run::cars(&pieces.cars, report);
+    if let Some(speed) = &pieces.speed {
+        run::speed(speed, report);
+    }
+    if let Some(rail) = &pieces.rail {
+        run::rail(rail, report);
+    }
+    if let Some(irregularity) = &pieces.irregularity {
+        run::irregularity(irregularity, report);
+    }
+    if let Some(time) = &pieces.time {
+        run::time(time, report);
+    }
+    if let Some(newmark) = &pieces.newmark {
+        run::newmark(newmark, report);
+    }
+    bridge::check(pieces, resolved, report);
+    layout::check(pieces, resolved, report);
+}

@@ -1,0 +1,106 @@
+//! From a scenario file to what the physics is built from, or to everything that is wrong with it.
+//!
+//! ```text
+//! text ─ json ─▶ value ─ walk ─▶ fits the schema ─ check ─▶ fits itself ─ resolve ─▶ specs
+//! ```
+//!
+//! No stage stops at the first problem, and a section of the file that is broken does not hide what is wrong in another.
+
+use std::path::Path;
+
+use serde_json::Value;
+use sha2::{Digest, Sha256};
+
+use crate::pieces::Pieces;
+use crate::problem::{Problems, Report};
+use crate::spec::{BridgeSpec, TrainTrackSpec};
+use crate::types::{Car, CouplingSettings, Scenario};
+use crate::{check, json, resolve, schema, walk};
+
+/// Acceleration of gravity, m/s².
+pub const GRAVITY: f64 = 9.81;
+
+/// A scenario without problems.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Checked {
+    /// The file's content.
+    pub scenario: Scenario,
+    /// What the train–track subsystem is built from.
+    pub train_track: TrainTrackSpec,
+    /// What the bridge subsystem is built from.
+    pub bridge: BridgeSpec,
+    /// What is allowed, but rarely meant.
+    pub warnings: Vec<String>,
+    /// SHA-256 (hexadecimal) of the two specs and the coupling settings as JSON: of all that decides the result, not of
+    /// the file's layout, titles, or the choice of output.
+    pub hash: String,
+    /// Static load of one axle, N, the largest of all cars: the scale of the coupling's tolerance.
+    pub axle_load: f64,
+}
+
+/// Reads and checks a scenario file.
+///
+/// # Errors
+/// All problems of the scenario; a file that cannot be read is one.
+pub fn load(path: &Path) -> Result<Checked, Problems> {
+    let name = path.display().to_string();
+    let text = std::fs::read_to_string(path).map_err(|error| {
+        let mut report = Report::new(&name);
+        report.problem("", "the scenario file cannot be read", error);
+        Problems(report.problems)
+    })?;
+    from_str(&text, path.parent().unwrap_or(Path::new("")), &name)
+}
+
+/// Checks a scenario given as text.
+///
+/// Files that it names are looked for from `base_dir`; messages call it `file_name`.
+///
+/// # Errors
+/// All problems of the scenario.
+pub fn from_str(text: &str, base_dir: &Path, file_name: &str) -> Result<Checked, Problems> {
+    let mut report = Report::new(file_name);
+    let Some(document) = json::read(text, &mut report) else {
+        return Err(Problems(report.problems));
+    };
+    walk::walk(&schema::schema(), &document.value, &document.reported, &mut report);
+    let pieces = Pieces::read(&document.value);
+    let resolved = resolve::resolve(&pieces, base_dir, &mut report);
+    check::check(&pieces, &resolved, &mut report);
+    let scenario = typed(document.value, &mut report);
+    let specs = scenario.as_ref().and_then(|scenario| resolve::specs(scenario, resolved));
+    match (scenario, specs) {
+        (Some(scenario), Some((train_track, bridge))) if report.problems.is_empty() => Ok(Checked {
+            hash: hash(&train_track, &bridge, &scenario.coupling),
+            axle_load: train_track.cars.iter().map(axle_load).fold(0.0, f64::max),
+            scenario,
+            train_track,
+            bridge,
+            warnings: report.warnings,
+        }),
+        _ => Err(Problems(report.problems)),
+    }
+}
+
+/// The whole file as its type. What fits the schema fits the type; should they ever differ, that is a problem too.
+fn typed(value: Value, report: &mut Report) -> Option<Scenario> {
+    match serde_json::from_value(value) {
+        Ok(scenario) => Some(scenario),
+        Err(error) => {
+            if report.problems.is_empty() {
+                report.problem("$", "must fit the schema", error);
+            }
+            None
+        }
+    }
+}
+
+/// Static load of one axle, N.
+fn axle_load(car: &Car) -> f64 {
+    GRAVITY * (0.25 * car.body_mass + 0.5 * car.bogie_mass + car.wheelset_mass)
+}
+
+fn hash(train_track: &TrainTrackSpec, bridge: &BridgeSpec, coupling: &CouplingSettings) -> String {
+    let content = serde_json::json!([train_track, bridge, coupling]).to_string();
+    Sha256::digest(content.as_bytes()).iter().map(|byte| format!("{byte:02x}")).collect()
+}

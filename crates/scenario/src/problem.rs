@@ -1,0 +1,107 @@
+//! What can be wrong with a scenario, said in one line each: where, which rule, what was found.
+
+use std::fmt;
+
+/// One broken rule.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Problem {
+    /// The scenario file as the user named it.
+    pub file: String,
+    /// Where, as a JSON path such as `$.train.cars[2].body_mass`; empty for the file as a whole.
+    pub path: String,
+    /// The rule.
+    pub rule: String,
+    /// What was found there instead.
+    pub value: String,
+    /// The nearest thing that would have been right.
+    pub suggestion: Option<String>,
+}
+
+impl fmt::Display for Problem {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}: ", self.file)?;
+        if !self.path.is_empty() {
+            write!(f, "{}: ", self.path)?;
+        }
+        f.write_str(&self.rule)?;
+        if !self.value.is_empty() {
+            write!(f, ": {}", self.value)?;
+        }
+        match &self.suggestion {
+            Some(name) => write!(f, " (did you mean `{name}`?)"),
+            None => Ok(()),
+        }
+    }
+}
+
+/// All problems of a scenario; never empty where it is an error.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Problems(pub Vec<Problem>);
+
+impl fmt::Display for Problems {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for (i, problem) in self.0.iter().enumerate() {
+            if i > 0 {
+                f.write_str("\n")?;
+            }
+            problem.fmt(f)?;
+        }
+        Ok(())
+    }
+}
+
+impl std::error::Error for Problems {}
+
+/// Collects problems and warnings of one file.
+pub(crate) struct Report {
+    file: String,
+    /// Broken rules.
+    pub problems: Vec<Problem>,
+    /// What is allowed, but rarely meant.
+    pub warnings: Vec<String>,
+}
+
+impl Report {
+    pub fn new(file: &str) -> Self {
+        Self { file: file.to_owned(), problems: Vec::new(), warnings: Vec::new() }
+    }
+
+    /// Notes that `value` was found at `path` against `rule`.
+    pub fn problem(&mut self, path: impl Into<String>, rule: impl Into<String>, value: impl fmt::Display) {
+        self.suggest(path, rule, value, None);
+    }
+
+    /// As [`Report::problem`], with what may have been meant.
+    pub fn suggest(
+        &mut self,
+        path: impl Into<String>,
+        rule: impl Into<String>,
+        value: impl fmt::Display,
+        suggestion: Option<String>,
+    ) {
+        self.problems.push(Problem {
+            file: self.file.clone(),
+            path: path.into(),
+            rule: rule.into(),
+            value: value.to_string(),
+            suggestion,
+        });
+    }
+
+    pub fn warn(&mut self, text: impl Into<String>) {
+        self.warnings.push(text.into());
+    }
+}
+
+/// The name most like `name`, if one is like it at all.
+pub(crate) fn nearest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Option<String> {
+    /// Below this likeness (0…1) a suggestion would puzzle more than help.
+    const LIKE: f64 = 0.5;
+    let like = |other: &str| strsim::normalized_damerau_levenshtein(&name.to_lowercase(), &other.to_lowercase());
+    known
+        .into_iter()
+        .map(|other| (like(other), other))
+        .filter(|(likeness, _)| *likeness >= LIKE)
+        .max_by(|a, b| a.0.total_cmp(&b.0))
+        .map(|(_, other)| other.to_owned())
+}

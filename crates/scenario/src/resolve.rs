@@ -1,0 +1,130 @@
+//! Replaces names by what they name, and lays the track over the bridge.
+
+use std::path::Path;
+
+use crate::bundled;
+use crate::deck::Deck;
+use crate::measured;
+use crate::pieces::Pieces;
+use crate::problem::Report;
+use crate::spec::{BridgeSpec, Profile, StructureSpec, TrainTrackSpec};
+use crate::types::{Car, CarChoice, FrameChoice, Irregularity, Scenario, Speed, Structure, TrackChoice, TrackType};
+
+/// What the names in a scenario stand for; `None` where that cannot be told, which has been reported.
+pub(crate) struct Resolved {
+    pub cars: Option<Vec<Car>>,
+    /// Points (time s, speed m/s).
+    pub speed: Option<Vec<[f64; 2]>>,
+    pub track: Option<TrackType>,
+    pub profile: Option<Profile>,
+    pub structure: Option<StructureSpec>,
+}
+
+/// Looks up names and reads the measured irregularity, relative to `base_dir`.
+pub(crate) fn resolve(pieces: &Pieces, base_dir: &Path, report: &mut Report) -> Resolved {
+    let cars: Option<Vec<Vec<Car>>> = pieces.cars.iter().map(|choice| cars(choice.as_ref()?)).collect();
+    Resolved {
+        cars: cars.map(|cars| cars.concat()).filter(|cars| !cars.is_empty()),
+        speed: pieces.speed.as_ref().map(speed),
+        track: pieces.track_type.as_ref().and_then(track),
+        profile: pieces.irregularity.as_ref().and_then(|chosen| profile(chosen, base_dir, report)),
+        structure: pieces.structure.as_ref().and_then(structure),
+    }
+}
+
+fn cars(choice: &CarChoice) -> Option<Vec<Car>> {
+    match choice {
+        CarChoice::Bundled(name) => bundled::cars(name),
+        CarChoice::Data(car) => Some(vec![(**car).clone()]),
+    }
+}
+
+fn speed(speed: &Speed) -> Vec<[f64; 2]> {
+    match speed {
+        Speed::KmH(v) => vec![[0.0, v / 3.6]],
+        Speed::MS(v) => vec![[0.0, *v]],
+        Speed::Profile(points) => points.clone(),
+    }
+}
+
+fn track(choice: &TrackChoice) -> Option<TrackType> {
+    match choice {
+        TrackChoice::Bundled(name) => bundled::track(name),
+        TrackChoice::Data(track) => Some((**track).clone()),
+    }
+}
+
+fn structure(structure: &Structure) -> Option<StructureSpec> {
+    match structure {
+        Structure::Beams { spans, continuous } => {
+            Some(StructureSpec::Beams { spans: spans.clone(), continuous: *continuous })
+        }
+        Structure::Frame { frame: FrameChoice::Bundled(name) } => bundled::frame(name).map(StructureSpec::Frame),
+        Structure::Frame { frame: FrameChoice::Data(frame) } => Some(StructureSpec::Frame((**frame).clone())),
+    }
+}
+
+fn profile(irregularity: &Irregularity, base_dir: &Path, report: &mut Report) -> Option<Profile> {
+    match irregularity {
+        Irregularity::None => Some(Profile::None),
+        Irregularity::Harmonics { waves, origin, ramp, .. } => {
+            Some(Profile::Waves { waves: waves.clone(), origin: *origin, ramp: ramp.clone() })
+        }
+        Irregularity::Spectrum { spectrum, seed, wavelengths, ramp, .. } => Some(Profile::Spectrum {
+            density: bundled::spectrum(spectrum)?,
+            seed: *seed,
+            wavelengths: *wavelengths,
+            ramp: ramp.clone(),
+        }),
+        Irregularity::Measured { file, ramp, .. } => {
+            let (x, r) = measured::read(&base_dir.join(file), report)?;
+            Some(Profile::Samples { x, r, ramp: ramp.clone() })
+        }
+    }
+}
+
+fn scale(irregularity: &Irregularity) -> f64 {
+    match irregularity {
+        Irregularity::None => 1.0,
+        Irregularity::Harmonics { scale, .. }
+        | Irregularity::Spectrum { scale, .. }
+        | Irregularity::Measured { scale, .. } => *scale,
+    }
+}
+
+/// The two subsystems' specs of a scenario whose names are all known.
+pub(crate) fn specs(scenario: &Scenario, resolved: Resolved) -> Option<(TrainTrackSpec, BridgeSpec)> {
+    let (track, structure) = (resolved.track?, resolved.structure?);
+    let (laid, bridge, time) = (&scenario.track, &scenario.bridge, scenario.time);
+    let supports =
+        Deck::new(&structure)?.supports(bridge.at, laid.from, track.spacing, laid.bays + 1, bridge.over_bearings);
+    let train_track = TrainTrackSpec {
+        cars: resolved.cars?,
+        front_wheel: scenario.train.front_wheel,
+        speed: resolved.speed?,
+        pre_roll: scenario.train.pre_roll,
+        contact: scenario.contact.clone(),
+        track,
+        from: laid.from,
+        bays: laid.bays,
+        elements_per_bay: laid.elements_per_bay,
+        local_compliance: laid.local_compliance,
+        on_bridge: supports.iter().map(|(i, _)| *i).collect(),
+        irregularity: resolved.profile?,
+        irregularity_scale: scale(&scenario.irregularity),
+        step: time.step,
+        end: time.end,
+        newmark: time.newmark,
+    };
+    let bridge = BridgeSpec {
+        structure,
+        damping: bridge.damping.clone(),
+        modes: bridge.modes,
+        supports: supports.iter().map(|(_, x)| *x).collect(),
+        points: bridge.points.clone(),
+        step: time.step,
+        end: time.end,
+        newmark: time.newmark,
+    };
+    Some((train_track, bridge))
+}

@@ -1,0 +1,54 @@
+//! Where the wheels are: their places in the train, the way the train has gone, the abscissae they ever reach.
+
+use crate::spec::TrainTrackSpec;
+use crate::types::Car;
+
+/// Distance of every wheelset behind the leading one, m, in order from the front; four per car.
+///
+/// Cars stand buffer to buffer: from the centre of one to that of the next is half the length of each.
+#[must_use]
+pub fn wheel_offsets(cars: &[Car]) -> Vec<f64> {
+    let mut offsets = Vec::with_capacity(4 * cars.len());
+    let mut front = 0.0; // of the car, behind the front of the train
+    for car in cars {
+        let centre = front + 0.5 * car.length;
+        let (bogie, axle) = (0.5 * car.bogie_distance, 0.5 * car.wheelbase);
+        offsets.extend([-bogie - axle, -bogie + axle, bogie - axle, bogie + axle].map(|arm| centre + arm));
+        front += car.length;
+    }
+    let leading = offsets.first().copied().unwrap_or(0.0);
+    offsets.iter().map(|offset| offset - leading).collect()
+}
+
+/// Speed in m/s at time `t` in s for points (time, speed): linear in between, constant outside.
+#[must_use]
+pub fn speed_at(points: &[[f64; 2]], t: f64) -> f64 {
+    let after = points.partition_point(|point| point[0] <= t);
+    match (after.checked_sub(1).map(|i| points[i]), points.get(after)) {
+        (Some([t0, v0]), Some([t1, v1])) => v0 + (v1 - v0) * (t - t0) / (t1 - t0),
+        (Some([_, v]), None) | (None, Some(&[_, v])) => v,
+        (None, None) => 0.0,
+    }
+}
+
+/// Distance in m gone from time 0 to `t` ≥ 0 in s; exact for the piecewise linear speed.
+#[must_use]
+pub fn distance(points: &[[f64; 2]], t: f64) -> f64 {
+    let inner = points.iter().map(|point| point[0]).filter(|time| (0.0..t).contains(time));
+    let mut gone = 0.0;
+    let mut from = 0.0;
+    for to in inner.chain([t]) {
+        gone += 0.5 * (speed_at(points, from) + speed_at(points, to)) * (to - from);
+        from = to;
+    }
+    gone
+}
+
+impl TrainTrackSpec {
+    /// The abscissae between which wheels are during the pre-roll and the run, m.
+    #[must_use]
+    pub fn way(&self) -> [f64; 2] {
+        let last = wheel_offsets(&self.cars).last().copied().unwrap_or(0.0);
+        [self.front_wheel - last - self.pre_roll, self.front_wheel + distance(&self.speed, self.end)]
+    }
+}

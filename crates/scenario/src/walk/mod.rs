@@ -1,0 +1,142 @@
+//! Checks a JSON value against the schema and reports everything that does not fit, not only the first thing.
+//!
+//! It knows the keywords that [`crate::schema`] produces (a test tells when it produces another). Where the schema offers
+//! branches, `branch` first finds the one that was meant, so that a misspelt key deep inside an irregularity of type
+//! `spectrum` is reported as just that.
+
+mod branch;
+mod limits;
+
+use std::collections::HashSet;
+
+use serde_json::Value;
+
+use crate::problem::{Report, nearest};
+
+/// Reports what in `value` does not fit the schema `root`; paths in `reported` are known to be wrong already.
+pub(crate) fn walk(root: &Value, value: &Value, reported: &HashSet<String>, report: &mut Report) {
+    Walker { root, reported, report }.check(root, value, "$");
+}
+
+struct Walker<'a> {
+    root: &'a Value,
+    reported: &'a HashSet<String>,
+    report: &'a mut Report,
+}
+
+impl<'a> Walker<'a> {
+    fn check(&mut self, schema: &'a Value, value: &Value, path: &str) {
+        if self.reported.contains(path) {
+            return;
+        }
+        let schema = self.resolve(schema);
+        if let Some(branches) = branch::branches(schema) {
+            if let Some(meant) = self.choose(branches, value, path) {
+                self.check(meant, value, path);
+            }
+            return;
+        }
+        if !branch::admits(schema, value) {
+            return self.wrong_type(schema, value, path);
+        }
+        match value {
+            Value::Object(map) => self.object(schema, map, path),
+            Value::Array(list) => self.array(schema, list, path),
+            Value::Number(number) => self.number(schema, number, path),
+            Value::String(text) => self.text(schema, text, path),
+            Value::Bool(_) | Value::Null => {}
+        }
+    }
+
+    /// Follows `$ref` to the definition it names.
+    fn resolve(&self, schema: &'a Value) -> &'a Value {
+        let target = schema["$ref"].as_str().and_then(|name| name.strip_prefix('#'));
+        target.and_then(|pointer| self.root.pointer(pointer)).unwrap_or(schema)
+    }
+
+    fn object(&mut self, schema: &'a Value, map: &serde_json::Map<String, Value>, path: &str) {
+        let Some(properties) = schema["properties"].as_object() else { return };
+        for (key, value) in map {
+            match properties.get(key) {
+                Some(property) => self.check(property, value, &format!("{path}.{key}")),
+                None if schema["additionalProperties"] == false => {
+                    let near = nearest(key, properties.keys().map(String::as_str));
+                    self.report.suggest(format!("{path}.{key}"), "unknown key", format!("`{key}`"), near);
+                }
+                None => {}
+            }
+        }
+        for key in schema["required"].as_array().into_iter().flatten().filter_map(Value::as_str) {
+            if !map.contains_key(key) {
+                self.report.problem(format!("{path}.{key}"), "missing key", format!("`{key}`"));
+            }
+        }
+    }
+
+    fn wrong_type(&mut self, schema: &Value, value: &Value, path: &str) {
+        let wanted: Vec<_> = branch::types(schema).filter(|t| *t != "null").map(in_words).collect();
+        self.report.problem(path, format!("must be {}", wanted.join(" or ")), shown(value));
+    }
+}
+
+/// A JSON type for people.
+fn in_words(kind: &str) -> &'static str {
+    match kind {
+        "object" => "an object",
+        "array" => "a list",
+        "number" => "a number",
+        "integer" => "a whole number",
+        "string" => "a text",
+        "boolean" => "true or false",
+        _ => "null",
+    }
+}
+
+/// A value for a message: JSON, cut where it gets long.
+fn shown(value: &Value) -> String {
+    const LONG: usize = 40;
+    let text = value.to_string();
+    match text.char_indices().nth(LONG) {
+        Some((cut, _)) => format!("{} …", &text[..cut]),
+        None => text,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::BTreeSet;
+
+    use serde_json::Value;
+
+    use crate::schema::schema;
+    use crate::types::NAME_PATTERN;
+
+    const UNDERSTOOD: &str = "$ref oneOf anyOf const enum type properties required additionalProperties items minItems \
+        maxItems minimum maximum exclusiveMinimum pattern";
+    const ANNOTATIONS: &str = "$schema $id $defs title description default format";
+
+    /// Keywords of a schema and of all schemas in it.
+    fn keywords(schema: &Value, found: &mut BTreeSet<String>) {
+        for (keyword, value) in schema.as_object().into_iter().flatten() {
+            found.insert(keyword.clone());
+            match (keyword.as_str(), value) {
+                ("properties" | "$defs", Value::Object(named)) => named.values().for_each(|s| keywords(s, found)),
+                ("oneOf" | "anyOf", Value::Array(list)) => list.iter().for_each(|s| keywords(s, found)),
+                ("items", schema) => keywords(schema, found),
+                _ => {}
+            }
+        }
+    }
+
+    #[test]
+    fn the_schema_has_no_keyword_that_the_walker_does_not_know() {
+        let schema = schema();
+        let mut found = BTreeSet::new();
+        keywords(&schema, &mut found);
+        let known: BTreeSet<String> =
+            UNDERSTOOD.split_whitespace().chain(ANNOTATIONS.split_whitespace()).map(str::to_owned).collect();
+        assert_eq!(found.difference(&known).collect::<Vec<_>>(), Vec::<&String>::new());
+        let text = schema.to_string();
+        assert_eq!(text.matches("\"pattern\":").count(), text.matches(&format!("\"pattern\":\"{NAME_PATTERN}\"")).count());
+    }
+}

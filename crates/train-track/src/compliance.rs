@@ -1,0 +1,83 @@
+//! Dynamic compliance of the rail between any two points, Y = N K̂⁻¹ Nᵀ, from a band of the inverse made once.
+//!
+//! K̂⁻¹ decays exponentially along the rail; entries below 1e-16 of the largest are left out, so that the table is exact to
+//! rounding. One pair of columns a node is enough: K̂⁻¹ is symmetric.
+
+use ttb_dynamics::band::BandFactor;
+
+use crate::track::{RailPoint, Track};
+
+/// Blocks [ww, wθ, θw, θθ] of K̂⁻¹ between rail nodes p and p + o, o < width.
+#[derive(Clone, Debug)]
+pub struct RailCompliance {
+    width: usize,
+    blocks: Vec<[f64; 4]>,
+}
+
+/// What is left out, relative to the largest entry of a column.
+const NEGLIGIBLE: f64 = 1e-16;
+
+impl RailCompliance {
+    /// Tabulates the inverse of `factor`, the track's Newmark matrix.
+    pub fn new(track: &Track, factor: &BandFactor) -> Self {
+        let (nodes, n) = (track.nodes(), track.order());
+        let width = reach(track, factor);
+        let mut blocks = vec![[0.0; 4]; nodes * width];
+        let mut column = vec![0.0; n];
+        for p in 0..nodes {
+            let begin = track.node_dof(p);
+            // The solution has to decay beyond the last block before the window may end.
+            let last = (p + width).min(nodes) - 1;
+            let end = if p + 2 * width < nodes { track.node_dof(p + 2 * width) } else { n };
+            for a in 0..2 {
+                column[begin..end].fill(0.0);
+                column[begin + a] = 1.0;
+                factor.solve_range(&mut column, begin, end);
+                for q in p..=last {
+                    let (block, dof) = (&mut blocks[p * width + q - p], track.node_dof(q));
+                    (block[2 * a], block[2 * a + 1]) = (column[dof], column[dof + 1]);
+                }
+            }
+        }
+        Self { width, blocks }
+    }
+
+    /// N_i K̂⁻¹ N_jᵀ, m/N, local compliance not included.
+    pub fn between(&self, i: &RailPoint, j: &RailPoint) -> f64 {
+        let mut sum = 0.0;
+        for a in 0..2 {
+            for b in 0..2 {
+                let (p, q) = (i.element + a, j.element + b);
+                let (low, high) = (p.min(q), p.max(q));
+                if high - low >= self.width {
+                    continue;
+                }
+                let [ww, wt, tw, tt] = self.blocks[low * self.width + high - low];
+                let (wt, tw) = if p <= q { (wt, tw) } else { (tw, wt) };
+                let (w, t) = (i.row[2 * a], i.row[2 * a + 1]);
+                let (v, s) = (j.row[2 * b], j.row[2 * b + 1]);
+                sum += w * (ww * v + wt * s) + t * (tw * v + tt * s);
+            }
+        }
+        sum
+    }
+}
+
+/// Number of nodes over which the inverse decays to nothing, measured in the middle of the track.
+fn reach(track: &Track, factor: &BandFactor) -> usize {
+    let (nodes, middle) = (track.nodes(), track.nodes() / 2);
+    let mut reach = 1;
+    for a in 0..2 {
+        let mut column = vec![0.0; track.order()];
+        column[track.node_dof(middle) + a] = 1.0;
+        factor.solve(&mut column);
+        for b in 0..2 {
+            let entry = |q: usize| column[track.node_dof(q) + b].abs();
+            let largest = (0..nodes).map(entry).fold(0.0, f64::max);
+            let far = (middle..nodes).rev().find(|q| entry(*q) > NEGLIGIBLE * largest);
+            reach = reach.max(far.map_or(1, |q| q - middle + 1));
+        }
+    }
+    // Near the ends the rail is softer than in the middle: a quarter more.
+    (reach + reach / 4 + 1).min(nodes)
+}

@@ -1,0 +1,235 @@
+//! The track: rail elements on one-, two- or three-layer supports, numbered along the track so that all matrices are banded.
+//!
+//! ```text
+//! rail – fastener – deck                                              one layer
+//! rail – pad – sleeper – ballast – deck                               two layers
+//! rail – pad – sleeper – ballast – ballast mass – sub-ballast – deck  three layers, ballast masses linked by shear springs
+//! ```
+//!
+//! The lowest spring ("base") belongs to the track: it receives the deck's motion d, ḋ and returns the support force
+//! k(u − d) + c(u̇ − ḋ), positive down on the deck. On the ground d = 0.
+
+use ttb_dynamics::band::{Band, BandFactor, NotPositiveDefinite};
+use ttb_dynamics::beam::Beam;
+use ttb_dynamics::newmark::{Motion, Newmark};
+use ttb_scenario::spec::TrainTrackSpec;
+use ttb_scenario::types::{Spring, Support};
+
+/// Factors on the top layer (fastener or pad), FMU parameters.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FastenerFactors {
+    /// On its stiffness.
+    pub stiffness: f64,
+    /// On its damping.
+    pub damping: f64,
+}
+
+/// A spring–dashpot between two degrees of freedom.
+#[derive(Clone, Copy, Debug)]
+struct Link {
+    dofs: [usize; 2],
+    spring: Spring,
+}
+
+/// Numbering and matrices.
+#[derive(Clone, Debug)]
+pub struct Track {
+    from: f64,
+    element_length: f64,
+    elements: usize,
+    elements_per_bay: usize,
+    /// Degrees of freedom between rail and base beside the rail's: 0, 1 (sleeper) or 2 (sleeper, ballast).
+    layers: usize,
+    beam: Beam,
+    local_compliance: bool,
+    mass: Band,
+    links: Vec<Link>,
+    base: Spring,
+    on_bridge: Vec<usize>,
+}
+
+/// Where a wheel stands on the rail: element, shape row, local compliance.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct RailPoint {
+    /// Element.
+    pub element: usize,
+    /// N(ξ), deflection from [w₁, θ₁, w₂, θ₂].
+    pub row: [f64; 4],
+    /// c_loc, m/N.
+    pub local_compliance: f64,
+}
+
+impl Track {
+    /// Assembles the track.
+    pub fn new(spec: &TrainTrackSpec, factors: FastenerFactors) -> Self {
+        let (rail, bays, per_bay) = (&spec.track.rail, spec.bays, spec.elements_per_bay);
+        let beam = Beam {
+            bending_stiffness: rail.bending_stiffness,
+            mass: rail.mass,
+            shear_stiffness: rail.shear_stiffness,
+            rotary_inertia: rail.rotary_inertia,
+        };
+        let scaled = |s: &Spring| Spring { stiffness: s.stiffness * factors.stiffness, damping: s.damping * factors.damping };
+        // Springs from the top, masses between them.
+        let (springs, masses, shear) = match &spec.track.support {
+            Support::SingleLayer { fastener } => (vec![scaled(fastener)], vec![], None),
+            Support::TwoLayer { pad, sleeper_mass, ballast } => (vec![scaled(pad), *ballast], vec![*sleeper_mass], None),
+            Support::ThreeLayer { pad, sleeper_mass, ballast, ballast_mass, shear, sub_ballast } => {
+                (vec![scaled(pad), *ballast, *sub_ballast], vec![*sleeper_mass, *ballast_mass], *shear)
+            }
+        };
+        let layers = masses.len();
+        let (n, half_bandwidth) = (bays * (2 * per_bay + layers) + 2 + layers, (3 + layers).max(2 + if layers == 2 { 2 * per_bay } else { 0 }));
+        let mut track = Self {
+            from: spec.from,
+            element_length: spec.track.spacing / per_bay as f64,
+            elements: bays * per_bay,
+            elements_per_bay: per_bay,
+            layers,
+            beam,
+            local_compliance: spec.local_compliance,
+            mass: Band::zeros(n, half_bandwidth),
+            links: Vec::new(),
+            base: springs[layers],
+            on_bridge: spec.on_bridge.clone(),
+        };
+        let mass = beam.mass_matrix(track.element_length);
+        for e in 0..track.elements {
+            let dofs = track.element_dofs(e);
+            track.mass.add_element(&dofs, &mass);
+        }
+        for support in 0..=bays {
+            let rail = track.node_dof(support * per_bay);
+            for (layer, mass) in masses.iter().enumerate() {
+                let dof = rail + 2 + layer;
+                track.mass.add(dof, dof, *mass);
+                let above = if layer == 0 { rail } else { dof - 1 };
+                track.links.push(Link { dofs: [above, dof], spring: springs[layer] });
+            }
+            if let (Some(spring), true) = (shear, support > 0) {
+                let dofs = [track.base_dof(support - 1), track.base_dof(support)];
+                track.links.push(Link { dofs, spring });
+            }
+        }
+        track
+    }
+
+    /// Number of degrees of freedom.
+    pub fn order(&self) -> usize {
+        self.mass.order()
+    }
+    /// Number of rail nodes.
+    pub fn nodes(&self) -> usize {
+        self.elements + 1
+    }
+    /// Supports on the bridge.
+    pub fn bridge_supports(&self) -> usize {
+        self.on_bridge.len()
+    }
+    /// First and last abscissa of the rail, m.
+    pub fn extent(&self) -> (f64, f64) {
+        (self.from, self.from + self.elements as f64 * self.element_length)
+    }
+    /// Deflection of a rail node; the rotation is the next one.
+    pub fn node_dof(&self, node: usize) -> usize {
+        let (bay, inner) = (node / self.elements_per_bay, node % self.elements_per_bay);
+        let stride = 2 * self.elements_per_bay + self.layers;
+        bay * stride + if inner == 0 { 0 } else { 2 * inner + self.layers }
+    }
+    /// The degree of freedom above the base spring of a support.
+    fn base_dof(&self, support: usize) -> usize {
+        let rail = self.node_dof(support * self.elements_per_bay);
+        if self.layers == 0 { rail } else { rail + 1 + self.layers }
+    }
+    /// [w₁, θ₁, w₂, θ₂] of an element.
+    pub fn element_dofs(&self, element: usize) -> [usize; 4] {
+        let (a, b) = (self.node_dof(element), self.node_dof(element + 1));
+        [a, a + 1, b, b + 1]
+    }
+
+    /// The point of the rail at abscissa `x`; `None` beyond its ends.
+    pub fn locate(&self, x: f64) -> Option<RailPoint> {
+        let s = (x - self.from) / self.element_length;
+        if !(0.0..=self.elements as f64).contains(&s) {
+            return None;
+        }
+        let element = (s as usize).min(self.elements - 1);
+        let (xi, l) = (s - element as f64, self.element_length);
+        let local_compliance = if self.local_compliance { self.beam.local_compliance(xi, l) } else { 0.0 };
+        Some(RailPoint { element, row: self.beam.shape(xi, l), local_compliance })
+    }
+
+    /// Rail deflection N u at a point, without the local part.
+    pub fn deflection(&self, point: &RailPoint, u: &[f64]) -> f64 {
+        let dofs = self.element_dofs(point.element);
+        dofs.iter().zip(point.row).map(|(d, n)| n * u[*d]).sum()
+    }
+
+    /// f += Nᵀ F.
+    pub fn add_force(&self, point: &RailPoint, force: f64, f: &mut [f64]) {
+        let dofs = self.element_dofs(point.element);
+        dofs.iter().zip(point.row).for_each(|(d, n)| f[*d] += n * force);
+    }
+
+    /// Factor of K + a_M M + a_C C: the static matrix for a_M = a_C = 0, Newmark's for a₀, a₁.
+    ///
+    /// # Errors
+    /// A track that is not held.
+    pub fn factorise(&self, mass_factor: f64, damping_factor: f64) -> Result<BandFactor, NotPositiveDefinite> {
+        let mut matrix = Band::zeros(self.order(), self.mass.half_bandwidth()).plus(mass_factor, &self.mass);
+        let stiffness = self.beam.stiffness(self.element_length);
+        for e in 0..self.elements {
+            matrix.add_element(&self.element_dofs(e), &stiffness);
+        }
+        let effective = |s: &Spring| s.stiffness + damping_factor * s.damping;
+        for link in &self.links {
+            let ([i, j], k) = (link.dofs, effective(&link.spring));
+            matrix.add(i, i, k);
+            matrix.add(j, j, k);
+            matrix.add(i, j, -k);
+        }
+        for support in 0..=self.elements / self.elements_per_bay {
+            let dof = self.base_dof(support);
+            matrix.add(dof, dof, effective(&self.base));
+        }
+        matrix.factorise()
+    }
+
+    /// p = M (a₀u + a₂u̇ + a₃ü) + C (a₁u + a₄u̇ + a₅ü); `work` is scratch of the same length.
+    pub fn history(&self, newmark: &Newmark, old: &Motion, p: &mut [f64], work: &mut [f64]) {
+        let terms = || old.u.iter().zip(&old.v).zip(&old.a);
+        for (w, ((u, v), a)) in work.iter_mut().zip(terms()) {
+            *w = newmark.inertia(*u, *v, *a);
+        }
+        p.fill(0.0);
+        self.mass.multiply_add(work, p);
+        let damping = |i: usize| newmark.damping(old.u[i], old.v[i], old.a[i]);
+        for link in &self.links {
+            let [i, j] = link.dofs;
+            let force = link.spring.damping * (damping(i) - damping(j));
+            p[i] += force;
+            p[j] -= force;
+        }
+        for support in 0..=self.elements / self.elements_per_bay {
+            let i = self.base_dof(support);
+            p[i] += self.base.damping * damping(i);
+        }
+    }
+
+    /// f += k d + c ḋ of the base springs on the bridge; `deck` is [d…, ḋ…].
+    pub fn add_deck(&self, deck: &[f64], f: &mut [f64]) {
+        let (d, v) = deck.split_at(self.on_bridge.len());
+        for ((support, d), v) in self.on_bridge.iter().zip(d).zip(v) {
+            f[self.base_dof(*support)] += self.base.stiffness * d + self.base.damping * v;
+        }
+    }
+
+    /// Support forces k(u − d) + c(u̇ − ḋ) on the bridge, N.
+    pub fn support_forces(&self, motion: &Motion, deck: &[f64], forces: &mut [f64]) {
+        let (d, v) = deck.split_at(self.on_bridge.len());
+        for (((force, support), d), v) in forces.iter_mut().zip(&self.on_bridge).zip(d).zip(v) {
+            let i = self.base_dof(*support);
+            *force = self.base.stiffness * (motion.u[i] - d) + self.base.damping * (motion.v[i] - v);
+        }
+    }
+}
