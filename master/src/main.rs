@@ -1,2 +1,49 @@
-//! x
-fn main(){println!("{:?}", std::env::current_exe());}
+//! `ttb`: builds, couples and runs the two FMUs. Only this crate prints; exit codes are those of [`error::Error::code`].
+
+mod build;
+mod cli;
+mod connect;
+mod error;
+mod peaks;
+mod plot;
+mod record;
+mod run;
+mod summary;
+
+use std::process::ExitCode;
+
+use clap::Parser;
+use cli::{Cli, Command};
+use error::Error;
+
+fn main() -> ExitCode {
+    match execute(Cli::parse().command) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("ttb: {error}");
+            ExitCode::from(error.code())
+        }
+    }
+}
+
+fn execute(command: Command) -> Result<(), Error> {
+    match command {
+        Command::Run(arguments) => run::run(&arguments),
+        Command::Build(arguments) => {
+            let checked = build::scenario(arguments.scenario.as_deref())?;
+            let built = build::build(&checked, &arguments.output)?;
+            println!("{}\n{}", built.train_track.display(), built.bridge.display());
+            Ok(())
+        }
+        Command::CheckScenario { scenario } => {
+            let checked = build::scenario(Some(&scenario))?;
+            let supports = checked.bridge.supports.len();
+            println!("{}: no problems; {} cars, {supports} supports on the bridge", scenario.display(), checked.train_track.cars.len());
+            Ok(())
+        }
+        Command::Schema => {
+            println!("{:#}", ttb_scenario::schema());
+            Ok(())
+        }
+    }
+}

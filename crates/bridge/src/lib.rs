@@ -1,1 +1,21 @@
-//! the bridge subsystem.
+//! The bridge subsystem: spans of beams or a plane frame, linear, behind the coupling contract.
+//!
+//! Start with [`model::Bridge`]. A specification becomes a mesh ([`beams`] or [`frame`] → [`mesh`]), a mesh becomes
+//! equations ([`structure`], [`system`]), and the deck's path ([`deck`]) ties the track's supports to them.
+
+pub mod beams;
+pub mod deck;
+pub mod frame;
+pub mod full;
+pub mod interface;
+pub mod march;
+pub mod mesh;
+pub mod model;
+pub mod reduced;
+pub mod rows;
+pub mod state;
+pub mod steps;
+pub mod structure;
+pub mod system;
+
+pub use model::Bridge;

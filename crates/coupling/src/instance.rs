@@ -142,8 +142,11 @@ impl<M: Model> Instance<M> {
     fn build(&mut self) -> Result<(), ModelError> {
         let parameters = &self.values.all[self.model.interface().parameters()];
         if self.built.as_ref().is_none_or(|(start, built)| *start != self.start || built != parameters) {
+            let parameters = parameters.to_vec();
+            // A build that fails leaves a half-built model behind: the next one must not take it for whole.
+            self.built = None;
             self.model.build(&self.values, self.start)?;
-            self.built = Some((self.start, parameters.to_vec()));
+            self.built = Some((self.start, parameters));
         }
         Ok(())
     }

@@ -12,6 +12,7 @@ pub mod interface;
 pub mod iteration;
 pub mod model;
 pub mod predictor;
+pub mod run;
 pub mod subsystem;
 
 pub use in_process::InProcess;

@@ -1,7 +1,7 @@
 //! Symmetric banded matrices: a rail on its supports, numbered along the track, has a half bandwidth of three to seven.
 //!
 //! A = L D Lᵀ with unit lower L. Forward and backward substitution are one short recurrence each, bound by the latency of
-//! a multiplication and an addition a row; the usual bandwidths get loops of constant length.
+//! a multiplication and a subtraction a row; the usual bandwidths get loops of constant length.
 
 use thiserror::Error;
 
@@ -98,27 +98,39 @@ impl Band {
             }
             inverse[i] = 1.0 / d;
         }
-        Ok(BandFactor { l: self, inverse })
+        let mut columns = vec![0.0; self.n * b];
+        for i in 0..self.n {
+            for k in 1..=b.min(self.n - 1 - i) {
+                columns[i * b + k - 1] = self.rows[(i + k) * w + b - k];
+            }
+        }
+        let rows = self.rows.chunks_exact(w).flat_map(|row| &row[..b]).copied().collect();
+        Ok(BandFactor { n: self.n, b, rows, columns, inverse })
     }
 }
 
-/// L and 1/D of a [`Band`].
+/// L and 1/D of a [`Band`]; L by rows for the forward, by columns for the backward substitution.
 #[derive(Clone, Debug)]
 pub struct BandFactor {
-    l: Band,
+    n: usize,
+    b: usize,
+    /// Row i: l_{i,i−b} … l_{i,i−1}.
+    rows: Vec<f64>,
+    /// Row i: l_{i+1,i} … l_{i+b,i}.
+    columns: Vec<f64>,
     inverse: Vec<f64>,
 }
 
 impl BandFactor {
     /// x ← A⁻¹ x.
     pub fn solve(&self, x: &mut [f64]) {
-        self.solve_range(x, 0, self.l.n);
+        self.solve_range(x, 0, self.n);
     }
 
-    /// Solves the leading part of the system from row `from` to row `to` as if the rest did not exist; with a right-hand
-    /// side that is zero before `from` and a solution that has decayed at `to`, rows `from..to` are those of A⁻¹ x.
+    /// Solves the part of the system from row `from` to row `to` as if the rest did not exist; with a right-hand side that
+    /// is zero before `from` and a solution that has decayed at `to`, rows `from..to` are those of A⁻¹ x.
     pub fn solve_range(&self, x: &mut [f64], from: usize, to: usize) {
-        match self.l.b {
+        match self.b {
             1 => self.solve_fixed::<1>(x, from, to),
             2 => self.solve_fixed::<2>(x, from, to),
             3 => self.solve_fixed::<3>(x, from, to),
@@ -131,54 +143,47 @@ impl BandFactor {
         }
     }
 
+    /// The last B unknowns stay in registers: a row waits only for the product with the newest one.
     fn solve_fixed<const B: usize>(&self, x: &mut [f64], from: usize, to: usize) {
-        let w = B + 1;
-        let body = (from + B).min(to);
-        self.forward(B, x, from, from, body);
-        for i in body..to {
-            let (row, window) = (&self.l.rows[i * w..i * w + B], &x[i - B..i]);
-            // The newest unknown comes last: only its product waits for the row before.
-            let mut sum = x[i];
-            for (l, y) in row.iter().zip(window) {
-                sum -= l * y;
+        let (rows, _) = self.rows.as_chunks::<B>();
+        let (columns, _) = self.columns.as_chunks::<B>();
+        let mut last = [0.0; B];
+        for ((x, row), inverse) in x[from..to].iter_mut().zip(&rows[from..to]).zip(&self.inverse[from..to]) {
+            let mut y = *x;
+            for k in 0..B {
+                y -= row[k] * last[k];
             }
-            x[i] = sum;
-        }
-        for (x, inverse) in x[from..to].iter_mut().zip(&self.inverse[from..to]) {
-            *x *= inverse;
-        }
-        for i in (body..to).rev() {
-            let xi = x[i];
-            let (row, window) = (&self.l.rows[i * w..i * w + B], &mut x[i - B..i]);
-            for (l, y) in row.iter().zip(window) {
-                *y -= l * xi;
+            for k in 1..B {
+                last[k - 1] = last[k];
             }
+            last[B - 1] = y;
+            *x = y * inverse;
         }
-        self.backward(B, x, from, from, body);
+        let mut next = [0.0; B];
+        for (x, column) in x[from..to].iter_mut().zip(&columns[from..to]).rev() {
+            let mut y = *x;
+            for k in (0..B).rev() {
+                y -= column[k] * next[k];
+            }
+            for k in (1..B).rev() {
+                next[k] = next[k - 1];
+            }
+            next[0] = y;
+            *x = y;
+        }
     }
 
     fn solve_any(&self, b: usize, x: &mut [f64], from: usize, to: usize) {
-        self.forward(b, x, from, from, to);
-        for (x, inverse) in x[from..to].iter_mut().zip(&self.inverse[from..to]) {
-            *x *= inverse;
+        for i in from..to {
+            let first = i.saturating_sub(b).max(from);
+            let row = &self.rows[i * b + b - (i - first)..(i + 1) * b];
+            let sum: f64 = row.iter().zip(&x[first..i]).map(|(l, y)| l * y).sum();
+            x[i] -= sum;
         }
-        self.backward(b, x, from, from, to);
-    }
-
-    /// Forward substitution of rows `rows`, columns not before `first`.
-    fn forward(&self, b: usize, x: &mut [f64], first: usize, begin: usize, end: usize) {
-        for i in begin..end {
-            for j in i.saturating_sub(b).max(first)..i {
-                x[i] -= self.l.rows[i * (b + 1) + b - (i - j)] * x[j];
-            }
-        }
-    }
-
-    fn backward(&self, b: usize, x: &mut [f64], first: usize, begin: usize, end: usize) {
-        for i in (begin..end).rev() {
-            for j in i.saturating_sub(b).max(first)..i {
-                x[j] -= self.l.rows[i * (b + 1) + b - (i - j)] * x[i];
-            }
+        for i in (from..to).rev() {
+            let column = &self.columns[i * b..i * b + b.min(to - 1 - i)];
+            let sum: f64 = column.iter().zip(&x[i + 1..]).map(|(l, y)| l * y).sum();
+            x[i] = x[i] * self.inverse[i] - sum;
         }
     }
 }

@@ -11,3 +11,4 @@ pub mod modes;
 pub mod newmark;
 pub mod pool;
 pub mod sparse;
+pub mod vector;

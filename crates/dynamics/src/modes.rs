@@ -15,6 +15,7 @@ use nalgebra::{DMatrix, SymmetricEigen};
 
 use crate::factor::Factor;
 use crate::sparse::Pencil;
+use crate::vector::{add_scaled, dot};
 
 /// Modes, lowest first.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -47,8 +48,10 @@ pub enum ModesError {
 
 /// Start vectors b.
 const QUEUE: usize = 4;
-/// Residual of A φ = θ φ relative to θ. The error of ω² is its square.
-const TOLERANCE: f64 = 1e-9;
+/// Residual of A φ = θ φ relative to θ: the error of φ where modes are well apart; that of ω² is its square.
+const TOLERANCE: f64 = 1e-11;
+/// What rounding leaves of the residual in any case, relative to the largest θ.
+const ROUNDING: f64 = 1e-14;
 /// A new vector shorter than this, relative to A v before the orthogonalisation, is rounding.
 const DEFLATION: f64 = 1e-12;
 
@@ -123,7 +126,7 @@ impl<'a> Lanczos<'a> {
             let mx = self.mass(&x);
             let h: Vec<f64> = self.basis.iter().map(|v| dot(v, &mx)).collect();
             for ((v, h), sum) in self.basis.iter().zip(&h).zip(&mut coefficients) {
-                x.iter_mut().zip(v).for_each(|(x, v)| *x -= h * v);
+                add_scaled(-h, v, &mut x);
                 *sum += h;
             }
         }
@@ -160,9 +163,10 @@ impl<'a> Lanczos<'a> {
             let residual = |&j: &usize| {
                 let s = eigen.eigenvectors.column(j);
                 let row = |i| self.t.iter().zip(s.iter()).map(|(t, s)| t.get(i).map_or(0.0, |t| t * s)).sum::<f64>();
-                (p..self.basis.len()).map(|i| row(i) * row(i)).sum::<f64>().sqrt() / eigen.eigenvalues[j]
+                (p..self.basis.len()).map(|i| row(i) * row(i)).sum::<f64>().sqrt()
             };
-            if order[..count].iter().any(|j| residual(j) > TOLERANCE) {
+            let tolerance = |j: &usize| TOLERANCE * eigen.eigenvalues[*j] + ROUNDING * eigen.eigenvalues[order[0]];
+            if order[..count].iter().any(|j| residual(j) > tolerance(j)) {
                 return None;
             }
             // σ stands in the first clear gap above the last mode asked for.
@@ -176,7 +180,7 @@ impl<'a> Lanczos<'a> {
         let shapes = order[..count].iter().map(|&j| {
             let mut shape = vec![0.0; self.pencil.ndof()];
             for (v, s) in self.basis.iter().zip(eigen.eigenvectors.column(j).iter()) {
-                shape.iter_mut().zip(v).for_each(|(shape, v)| *shape += s * v);
+                add_scaled(*s, v, &mut shape);
             }
             let largest = shape.iter().fold(0.0_f64, |m, x| if x.abs() > m.abs() { *x } else { m });
             shape.iter_mut().for_each(|x| *x *= largest.signum());
@@ -194,10 +198,6 @@ impl<'a> Lanczos<'a> {
         z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
         ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
     }
-}
-
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
 #[cfg(test)]

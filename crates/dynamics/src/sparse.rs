@@ -160,7 +160,7 @@ mod tests {
         chain.add_stiffness(&x, &mut y);
         chain.add_mass(&x, &mut y);
         let factor = chain.factor(1.0, 1.0).unwrap();
-        factor.solve_in_place(&mut y, &mut vec![0.0; 7]);
+        factor.solve_in_place(&mut y, &mut [0.0; 7]);
         assert!(x.iter().zip(&y).all(|(x, y)| (x - y).abs() < 1e-12));
     }
 

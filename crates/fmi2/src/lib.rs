@@ -1,1 +1,10 @@
-//! FMI 2.0 co-simulation, export and import.
+//! FMI 2.0 for co-simulation, both ways.
+//!
+//! [`export`] puts any [`ttb_coupling::Model`] behind the 44 C functions of the standard: [`export_fmu!`] is all a shared
+//! library needs. [`import`] loads anyone's FMU and makes it a [`ttb_coupling::Subsystem`].
+//! [`types`] are the C types both share. This is the only library crate with `unsafe`; it never leaks into its interface.
+
+pub mod export;
+#[cfg(feature = "import")]
+pub mod import;
+pub mod types;

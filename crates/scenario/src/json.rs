@@ -166,7 +166,8 @@ impl Reader<'_> {
         let line = before.matches('\n').count() + 1;
         let column = before.chars().rev().take_while(|c| *c != '\n').count() + 1;
         let found = match self.text[self.at..].chars().next() {
-            Some(c) => format!("`{}`", c.escape_default()),
+            Some(c) if c.is_control() => format!("`{}`", c.escape_default()),
+            Some(c) => format!("`{c}`"),
             None => "the end of the file".to_owned(),
         };
         (line, column, found)

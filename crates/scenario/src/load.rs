@@ -8,7 +8,6 @@
 
 use std::path::Path;
 
-use serde_json::Value;
 use sha2::{Digest, Sha256};
 
 use crate::pieces::Pieces;
@@ -19,6 +18,9 @@ use crate::{check, json, resolve, schema, walk};
 
 /// Acceleration of gravity, m/s².
 pub const GRAVITY: f64 = 9.81;
+
+/// The rule against which nothing is ever found, as a test tries to show.
+const MUST_FIT: &str = "must fit the schema";
 
 /// A scenario without problems.
 #[derive(Clone, Debug, PartialEq)]
@@ -67,32 +69,29 @@ pub fn from_str(text: &str, base_dir: &Path, file_name: &str) -> Result<Checked,
     let pieces = Pieces::read(&document.value);
     let resolved = resolve::resolve(&pieces, base_dir, &mut report);
     check::check(&pieces, &resolved, &mut report);
-    let scenario = typed(document.value, &mut report);
-    let specs = scenario.as_ref().and_then(|scenario| resolve::specs(scenario, resolved));
-    match (scenario, specs) {
-        (Some(scenario), Some((train_track, bridge))) if report.problems.is_empty() => Ok(Checked {
-            hash: hash(&train_track, &bridge, &scenario.coupling),
-            axle_load: train_track.cars.iter().map(axle_load).fold(0.0, f64::max),
-            scenario,
-            train_track,
-            bridge,
-            warnings: report.warnings,
-        }),
-        _ => Err(Problems(report.problems)),
+    if !report.problems.is_empty() {
+        return Err(Problems(report.problems));
     }
-}
-
-/// The whole file as its type. What fits the schema fits the type; should they ever differ, that is a problem too.
-fn typed(value: Value, report: &mut Report) -> Option<Scenario> {
-    match serde_json::from_value(value) {
-        Ok(scenario) => Some(scenario),
+    // What fits the schema fits the types and resolves; should that ever fail, it is a problem like any other.
+    let scenario: Scenario = match serde_json::from_value(document.value) {
+        Ok(scenario) => scenario,
         Err(error) => {
-            if report.problems.is_empty() {
-                report.problem("$", "must fit the schema", error);
-            }
-            None
+            report.problem("$", MUST_FIT, error);
+            return Err(Problems(report.problems));
         }
-    }
+    };
+    let Some((train_track, bridge)) = resolve::specs(&scenario, resolved) else {
+        report.problem("$", MUST_FIT, "a name stands for nothing");
+        return Err(Problems(report.problems));
+    };
+    Ok(Checked {
+        hash: hash(&train_track, &bridge, &scenario.coupling),
+        axle_load: train_track.cars.iter().map(axle_load).fold(0.0, f64::max),
+        scenario,
+        train_track,
+        bridge,
+        warnings: report.warnings,
+    })
 }
 
 /// Static load of one axle, N.

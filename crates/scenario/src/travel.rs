@@ -52,3 +52,34 @@ impl TrainTrackSpec {
         [self.front_wheel - last - self.pre_roll, self.front_wheel + distance(&self.speed, self.end)]
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::bundled;
+
+    /// physics.md 7.5: one trailer car, leading wheel at 30 m, wheels at 30, 27.5, 12.625, 10.125 m.
+    #[test]
+    fn wheels_stand_in_order_from_the_front_car_behind_car() {
+        let car = bundled::cars("ice3-trailer").unwrap();
+        assert_eq!(wheel_offsets(&car), [0.0, 2.5, 17.375, 19.875]);
+        let two = wheel_offsets(&[car.clone(), car].concat());
+        assert_eq!(two.len(), 8);
+        assert!((two[4] - 24.775).abs() < 1e-12 && (two[7] - 44.65).abs() < 1e-12);
+        // the gap between two different cars is half of each one's overhang
+        let mixed = [bundled::cars("ice3-trailer").unwrap(), bundled::cars("manchester").unwrap()].concat();
+        let offsets = wheel_offsets(&mixed);
+        assert!((offsets[4] - offsets[3] - (2.45 + 2.42)).abs() < 1e-12);
+    }
+
+    #[test]
+    fn the_way_of_a_piecewise_linear_speed_is_exact() {
+        let points = [[1.0, 10.0], [3.0, 20.0], [4.0, 0.0]];
+        for (t, v, way) in [(0.0, 10.0, 0.0), (1.0, 10.0, 10.0), (2.0, 15.0, 22.5), (3.0, 20.0, 40.0), (9.0, 0.0, 50.0)]
+        {
+            assert_eq!((speed_at(&points, t), distance(&points, t)), (v, way), "t = {t}");
+        }
+        // points before the start count for the speed at the start only
+        assert_eq!(distance(&[[-2.0, 0.0], [2.0, 20.0]], 2.0), 30.0);
+    }
+}

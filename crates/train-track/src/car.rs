@@ -8,6 +8,7 @@
 
 use nalgebra::SMatrix;
 use ttb_dynamics::newmark::Newmark;
+use ttb_scenario::GRAVITY;
 use ttb_scenario::types::Car as CarData;
 
 /// Degrees of freedom of a car.
@@ -16,8 +17,6 @@ pub const DOFS: usize = 10;
 pub const AXLES: usize = 4;
 /// Position of the first wheelset in q.
 pub const FIRST_WHEEL: usize = 6;
-/// Gravity, m/s².
-pub const GRAVITY: f64 = 9.81;
 
 /// A 10 × 10 matrix.
 pub type Matrix10 = SMatrix<f64, DOFS, DOFS>;

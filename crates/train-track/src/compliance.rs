@@ -1,7 +1,10 @@
-//! Dynamic compliance of the rail between any two points, Y = N K̂⁻¹ Nᵀ, from a band of the inverse made once.
+//! Dynamic compliance of the track, from bands of the inverse made once: between two points of the rail, Y = N K̂⁻¹ Nᵀ, and
+//! between the rail and the supports on the bridge, N K̂⁻¹ e_s.
 //!
-//! K̂⁻¹ decays exponentially along the rail; entries below 1e-16 of the largest are left out, so that the table is exact to
+//! K̂⁻¹ decays exponentially along the rail; entries below 1e-16 of the largest are left out, so that the tables are exact to
 //! rounding. One pair of columns a node is enough: K̂⁻¹ is symmetric.
+
+use std::ops::Range;
 
 use ttb_dynamics::band::BandFactor;
 
@@ -12,6 +15,10 @@ use crate::track::{RailPoint, Track};
 pub struct RailCompliance {
     width: usize,
     blocks: Vec<[f64; 4]>,
+    /// Rail node over every support on the bridge.
+    support_nodes: Vec<usize>,
+    /// [w, θ] of K̂⁻¹ e_s at the rail nodes within `width` of the support's, 2 width − 1 of them.
+    columns: Vec<[f64; 2]>,
 }
 
 /// What is left out, relative to the largest entry of a column.
@@ -39,7 +46,24 @@ impl RailCompliance {
                 }
             }
         }
-        Self { width, blocks }
+        let (support_nodes, columns) = supports(track, factor, width);
+        Self { width, blocks, support_nodes, columns }
+    }
+
+    /// Supports on the bridge that a wheel at `point` can be felt at, and N K̂⁻¹ e_s of each, written to `row` (one entry a
+    /// support on the bridge, the others are left alone).
+    pub fn to_supports(&self, point: &RailPoint, row: &mut [f64]) -> Range<usize> {
+        let begin = self.support_nodes.partition_point(|n| n + self.width <= point.element + 1);
+        let end = self.support_nodes.partition_point(|n| *n < point.element + self.width);
+        let end = end.max(begin);
+        for s in begin..end {
+            let table = s * (2 * self.width - 1);
+            let at = |node: usize| self.columns[table + node + self.width - 1 - self.support_nodes[s]];
+            let ([w1, t1], [w2, t2]) = (at(point.element), at(point.element + 1));
+            let [a, b, c, d] = point.row;
+            row[s] = a * w1 + b * t1 + c * w2 + d * t2;
+        }
+        begin..end
     }
 
     /// N_i K̂⁻¹ N_jᵀ, m/N, local compliance not included.
@@ -61,6 +85,25 @@ impl RailCompliance {
         }
         sum
     }
+}
+
+/// Rail nodes over the supports on the bridge, and the columns K̂⁻¹ e_s around them.
+fn supports(track: &Track, factor: &BandFactor, width: usize) -> (Vec<usize>, Vec<[f64; 2]>) {
+    let (nodes, n) = (track.nodes(), track.order());
+    let dof = |node: usize| if node < nodes { track.node_dof(node) } else { n };
+    let (mut support_nodes, mut columns, mut column) = (Vec::new(), Vec::new(), vec![0.0; n]);
+    for (node, base) in track.bridge_bases() {
+        let (begin, end) = (dof(node.saturating_sub(width)), dof(node + 2 * width));
+        column[begin..end].fill(0.0);
+        column[base] = 1.0;
+        factor.solve_range(&mut column, begin, end);
+        columns.extend((0..2 * width - 1).map(|i| match (node + i).checked_sub(width - 1) {
+            Some(q) if q < nodes => [column[dof(q)], column[dof(q) + 1]],
+            _ => [0.0; 2],
+        }));
+        support_nodes.push(node);
+    }
+    (support_nodes, columns)
 }
 
 /// Number of nodes over which the inverse decays to nothing, measured in the middle of the track.

@@ -75,6 +75,8 @@ pub struct Contacts {
     y: Vec<f64>,
     trial: Vec<f64>,
     matrix: Vec<f64>,
+    /// First and one past the last axle that each axle is coupled with.
+    envelope: Vec<(usize, usize)>,
 }
 
 /// Newton iterations at most; two to four are usual.
@@ -88,7 +90,7 @@ impl Contacts {
     pub fn new(laws: Vec<Law>) -> Self {
         let n = laws.len();
         let zeros = || vec![0.0; n];
-        Self { laws, root: zeros(), g: zeros(), y: zeros(), trial: zeros(), matrix: vec![0.0; n * n] }
+        Self { laws, root: zeros(), g: zeros(), y: zeros(), trial: zeros(), matrix: vec![0.0; n * n], envelope: vec![(0, n); n] }
     }
 
     /// The laws.
@@ -102,24 +104,26 @@ impl Contacts {
     /// The number of iterations when Newton's method does not converge or meets a number that is not finite.
     pub fn solve(&mut self, compliance: &[f64], delta_free: &[f64], delta: &mut [f64], forces: &mut [f64]) -> Result<usize, usize> {
         let n = self.laws.len();
+        self.find_envelope(compliance);
         let mut norm = self.residual(compliance, delta_free, delta, forces);
         for iteration in 1..=ITERATIONS {
             for ((root, law), delta) in self.root.iter_mut().zip(&self.laws).zip(&*delta) {
                 *root = law.force(*delta).1.sqrt();
             }
             for i in 0..n {
-                for j in 0..=i {
+                for j in self.envelope[i].0..=i {
                     self.matrix[i * n + j] = self.root[i] * compliance[i * n + j] * self.root[j];
                 }
                 self.matrix[i * n + i] += 1.0;
                 self.y[i] = -self.root[i] * self.g[i];
             }
-            solve_positive_definite(&mut self.matrix, &mut self.y);
+            solve_positive_definite(&mut self.matrix, &self.envelope, &mut self.y);
             self.y.iter_mut().zip(&self.root).for_each(|(y, root)| *y *= root);
             let (mut largest, mut correction) = (1e-6_f64, 0.0_f64);
             for i in 0..n {
-                let row = &compliance[i * n..(i + 1) * n];
-                let product: f64 = row.iter().zip(&self.y).map(|(c, y)| c * y).sum();
+                let (first, end) = self.envelope[i];
+                let row = &compliance[i * n + first..i * n + end];
+                let product: f64 = row.iter().zip(&self.y[first..end]).map(|(c, y)| c * y).sum();
                 self.trial[i] = -self.g[i] - product;
                 correction = correction.max(self.trial[i].abs());
                 largest = largest.max(delta[i].abs());
@@ -145,6 +149,16 @@ impl Contacts {
         Err(ITERATIONS)
     }
 
+    /// Distant axles do not feel each other: the nonzero part of every row of Y.
+    fn find_envelope(&mut self, compliance: &[f64]) {
+        let n = self.laws.len();
+        for (i, (first, end)) in self.envelope.iter_mut().enumerate() {
+            let row = &compliance[i * n..(i + 1) * n];
+            *first = row[..i].iter().position(|y| *y != 0.0).unwrap_or(i);
+            *end = row.iter().rposition(|y| *y != 0.0).map_or(n, |last| last + 1).max(i + 1);
+        }
+    }
+
     /// g(δ), its largest entry, and F(δ).
     fn residual(&mut self, compliance: &[f64], delta_free: &[f64], delta: &[f64], forces: &mut [f64]) -> f64 {
         for ((force, law), delta) in forces.iter_mut().zip(&self.laws).zip(delta) {
@@ -153,8 +167,9 @@ impl Contacts {
         let n = self.laws.len();
         let mut norm = 0.0_f64;
         for i in 0..n {
-            let row = &compliance[i * n..(i + 1) * n];
-            let product: f64 = row.iter().zip(&*forces).map(|(c, f)| c * f).sum();
+            let (first, end) = self.envelope[i];
+            let row = &compliance[i * n + first..i * n + end];
+            let product: f64 = row.iter().zip(&forces[first..end]).map(|(c, f)| c * f).sum();
             self.g[i] = delta[i] + product - delta_free[i];
             // A NaN must not vanish in max().
             norm = if self.g[i].is_nan() { f64::NAN } else { norm.max(self.g[i].abs()) };
@@ -163,26 +178,29 @@ impl Contacts {
     }
 }
 
-/// b ← A⁻¹ b by Cholesky; the lower triangle of A (by rows) is overwritten. A is I plus a positive semidefinite matrix.
-fn solve_positive_definite(a: &mut [f64], b: &mut [f64]) {
+/// b ← A⁻¹ b by Cholesky within the envelope; the lower triangle of A (by rows) is overwritten. A is I plus a positive
+/// semidefinite matrix.
+fn solve_positive_definite(a: &mut [f64], envelope: &[(usize, usize)], b: &mut [f64]) {
     let n = b.len();
     for i in 0..n {
+        let first = envelope[i].0;
         let (above, row) = a.split_at_mut(i * n);
-        for j in 0..i {
+        for j in first..i {
+            let from = first.max(envelope[j].0);
             let pivot_row = &above[j * n..j * n + j + 1];
-            let sum: f64 = row[..j].iter().zip(pivot_row).map(|(x, y)| x * y).sum();
+            let sum: f64 = row[from..j].iter().zip(&pivot_row[from..]).map(|(x, y)| x * y).sum();
             row[j] = (row[j] - sum) * pivot_row[j];
         }
-        let sum: f64 = row[..i].iter().map(|x| x * x).sum();
+        let sum: f64 = row[first..i].iter().map(|x| x * x).sum();
         // The diagonal holds 1/l_ii.
         row[i] = 1.0 / (row[i] - sum).sqrt();
-        let sum: f64 = row[..i].iter().zip(&*b).map(|(x, y)| x * y).sum();
+        let sum: f64 = row[first..i].iter().zip(&b[first..]).map(|(x, y)| x * y).sum();
         b[i] = (b[i] - sum) * row[i];
     }
     for i in (0..n).rev() {
         b[i] *= a[i * n + i];
-        let bi = b[i];
-        b[..i].iter_mut().zip(&a[i * n..i * n + i]).for_each(|(b, l)| *b -= l * bi);
+        let (bi, first) = (b[i], envelope[i].0);
+        b[first..i].iter_mut().zip(&a[i * n + first..i * n + i]).for_each(|(b, l)| *b -= l * bi);
     }
 }
 

@@ -4,17 +4,18 @@
 //! car's K̂_c, their histories p (weight included) and the compliance table. One step to t₁:
 //!
 //! ```text
-//! 1  u_free = K̂_t⁻¹ (p_t + k d₁ + c ḋ₁)          rail without wheels, deck moved
+//! 1  u_p = K̂_t⁻¹ p_t                             rail without wheels and deck
 //!    q_free = K̂_c⁻¹ p_c                          cars without rail
-//! 2  δ_free = B q_free − N u_free − r
+//! 2  δ_free = B q_free − N (u_p + K̂_t⁻¹ (k d₁ + c ḋ₁)) − r
 //!    δ + Y F(δ) = δ_free                         Y = B K̂_c⁻¹ Bᵀ + N K̂_t⁻¹ Nᵀ + diag c_loc   (module `contact`)
-//! 3  u₁ = u_free + K̂_t⁻¹ Nᵀ F,   q₁ = q_free − K̂_c⁻¹ Bᵀ F
+//! 3  u₁ = K̂_t⁻¹ (p_t + k d₁ + c ḋ₁ + Nᵀ F),   q₁ = q_free − K̂_c⁻¹ Bᵀ F
 //! 4  Newmark's velocities and accelerations, then the support forces
 //! ```
 //!
-//! Histories belong to the old state (held by pointer, never written again), wheel positions to t₁: both are kept while the iteration repeats a step with other
-//! deck motions, so that a repetition costs two banded solves.
+//! Line 1 belongs to the old state (held by pointer, never written again), wheel positions and compliances to t₁: all are
+//! kept while the iteration repeats a step with other deck motions, so that a repetition costs one banded solve.
 
+use std::ops::Range;
 use std::sync::Arc;
 
 use ttb_dynamics::band::BandFactor;
@@ -101,19 +102,25 @@ pub struct TrainTrackSystem {
     pub(crate) points: Vec<RailPoint>,
     pub(crate) roughness: Vec<f64>,
     pub(crate) compliance: Vec<f64>,
+    /// N K̂⁻¹ e_s from every axle (rows) to the supports on the bridge, and which of them it reaches.
+    to_supports: Vec<f64>,
+    reached: Vec<Range<usize>>,
     geometry_for: Option<(u64, u64)>,
-    /// p_t and q_free for (state, h).
+    /// p_t, u_p and q_free for (state, h).
     history: Vec<f64>,
+    rail_free: Vec<f64>,
     cars_free: Vec<f64>,
     history_for: Option<(Arc<State>, u64)>,
     work: Vec<f64>,
+    deck_forces: Vec<f64>,
+    under_wheels: Vec<f64>,
     pub(crate) delta_free: Vec<f64>,
 }
 
 impl TrainTrackSystem {
     /// Joins the parts and makes the workspace.
     pub fn new(track: Track, cars: Vec<Car>, contacts: Contacts, front_wheel: f64, running: Running, irregularity: Irregularity) -> Self {
-        let (n, axles) = (track.order(), cars.len() * AXLES);
+        let (n, axles, supports) = (track.order(), cars.len() * AXLES, track.bridge_supports());
         let axle_offsets = axle_offsets(&cars);
         Self {
             cars_free: vec![0.0; cars.len() * DOFS],
@@ -127,10 +134,15 @@ impl TrainTrackSystem {
             points: vec![RailPoint::default(); axles],
             roughness: vec![0.0; axles],
             compliance: vec![0.0; axles * axles],
+            to_supports: vec![0.0; axles * supports],
+            reached: vec![0..0; axles],
             geometry_for: None,
             history: vec![0.0; n],
+            rail_free: vec![0.0; n],
             history_for: None,
             work: vec![0.0; n],
+            deck_forces: vec![0.0; supports],
+            under_wheels: vec![0.0; axles],
             delta_free: vec![0.0; axles],
         }
     }
@@ -184,6 +196,9 @@ impl TrainTrackSystem {
                 self.compliance[j * n + i] = y;
             }
             self.compliance[i * n + i] += self.points[i].local_compliance;
+            let supports = self.deck_forces.len();
+            let row = &mut self.to_supports[i * supports..(i + 1) * supports];
+            self.reached[i] = matrices.compliance.to_supports(&self.points[i], row);
         }
         self.add_wheel_compliance(matrices);
         self.geometry_for = Some(key);
@@ -215,11 +230,11 @@ impl TrainTrackSystem {
         }
     }
 
-    /// Wheel displacements of q_free, minus r and minus the rail's deflection `rail(axle)`: δ_free.
-    pub(crate) fn free_approach(&mut self, rail: impl Fn(&Track, &RailPoint) -> f64) {
-        for (axle, free) in self.delta_free.iter_mut().enumerate() {
+    /// δ_free: wheel displacements of q_free, minus r, minus the rail's deflection under the wheels.
+    pub(crate) fn free_approach(&mut self, under_wheels: &[f64]) {
+        for (axle, (free, rail)) in self.delta_free.iter_mut().zip(under_wheels).enumerate() {
             let wheel = self.cars_free[axle / AXLES * DOFS + FIRST_WHEEL + axle % AXLES];
-            *free = wheel - self.roughness[axle] - rail(&self.track, &self.points[axle]);
+            *free = wheel - self.roughness[axle] - rail;
         }
     }
 
@@ -245,27 +260,34 @@ impl TrainTrackSystem {
         let h = matrices.newmark.h.to_bits();
         if !self.history_for.as_ref().is_some_and(|(state, size)| Arc::ptr_eq(state, old) && *size == h) {
             self.track.history(&matrices.newmark, &old.track, &mut self.history, &mut self.work);
+            self.rail_free.copy_from_slice(&self.history);
+            matrices.track.solve(&mut self.rail_free);
             self.free_cars(matrices, &old.cars);
             self.history_for = Some((Arc::clone(old), h));
         }
-        // 1: rail without wheels.
-        let u = &mut new.track.u;
-        u.copy_from_slice(&self.history);
-        self.track.add_deck(deck, u);
-        matrices.track.solve(u);
         // 2: contacts.
-        self.free_approach(|track, point| track.deflection(point, u));
+        self.track.deck_forces(deck, &mut self.deck_forces);
+        let mut under_wheels = std::mem::take(&mut self.under_wheels);
+        for (axle, rail) in under_wheels.iter_mut().enumerate() {
+            let reached = self.reached[axle].clone();
+            let row = &self.to_supports[axle * self.deck_forces.len()..][reached.clone()];
+            let from_deck: f64 = row.iter().zip(&self.deck_forces[reached]).map(|(y, f)| y * f).sum();
+            *rail = self.track.deflection(&self.points[axle], &self.rail_free) + from_deck;
+        }
+        self.free_approach(&under_wheels);
+        self.under_wheels = under_wheels;
         new.delta.copy_from_slice(&old.delta);
         self.contacts.solve(&self.compliance, &self.delta_free, &mut new.delta, &mut new.forces).map_err(|iterations| {
             format!("the wheel–rail contacts did not converge in {iterations} iterations in the step to t = {t} s")
         })?;
         // 3: rail and cars under the contact forces.
-        self.work.fill(0.0);
+        let u = &mut new.track.u;
+        u.copy_from_slice(&self.history);
+        self.track.add_deck_forces(&self.deck_forces, u);
         for (point, force) in self.points.iter().zip(&new.forces) {
-            self.track.add_force(point, *force, &mut self.work);
+            self.track.add_force(point, *force, u);
         }
-        matrices.track.solve(&mut self.work);
-        u.iter_mut().zip(&self.work).for_each(|(u, w)| *u += w);
+        matrices.track.solve(u);
         self.finish_cars(matrices, &old.cars, &new.forces, &mut new.cars);
         // 4: velocities, accelerations, support forces.
         matrices.newmark.finish_all(&old.track, &mut new.track);

@@ -96,6 +96,7 @@ pub fn pre_roll(system: &mut TrainTrackSystem, factor: &BandFactor, matrices: &S
     let rail = rail_without_wheels(system, factor, &state.deck);
     static_compliance(system, factor);
     system.add_wheel_compliance(matrices);
+    let under_wheels: Vec<f64> = system.points.iter().map(|point| system.track.deflection(point, &rail)).collect();
     let (mut old, mut new) = (state.cars.clone(), state.cars.clone());
     for step in (0..steps as u64).rev() {
         let t = -(step as f64) * h;
@@ -103,7 +104,7 @@ pub fn pre_roll(system: &mut TrainTrackSystem, factor: &BandFactor, matrices: &S
             system.roughness[axle] = system.irregularity.at(system.axle_position(axle, t));
         }
         system.free_cars(matrices, &old);
-        system.free_approach(|track, point| track.deflection(point, &rail));
+        system.free_approach(&under_wheels);
         let failed = |_| "the wheel–rail contacts did not converge in the pre-roll of the cars".to_string();
         system.contacts.solve(&system.compliance, &system.delta_free, &mut state.delta, &mut state.forces).map_err(failed)?;
         system.finish_cars(matrices, &old, &state.forces, &mut new);
@@ -120,8 +121,9 @@ pub fn pre_roll(system: &mut TrainTrackSystem, factor: &BandFactor, matrices: &S
 fn rail_without_wheels(system: &TrainTrackSystem, factor: &BandFactor, deck: &[f64]) -> Vec<f64> {
     let mut displacements = deck.to_vec();
     displacements[deck.len() / 2..].fill(0.0);
-    let mut u = vec![0.0; system.track.order()];
-    system.track.add_deck(&displacements, &mut u);
+    let (mut forces, mut u) = (vec![0.0; deck.len() / 2], vec![0.0; system.track.order()]);
+    system.track.deck_forces(&displacements, &mut forces);
+    system.track.add_deck_forces(&forces, &mut u);
     factor.solve(&mut u);
     u
 }

@@ -216,11 +216,23 @@ impl Track {
         }
     }
 
-    /// f += k d + c ḋ of the base springs on the bridge; `deck` is [d…, ḋ…].
-    pub fn add_deck(&self, deck: &[f64], f: &mut [f64]) {
+    /// Rail node over and degree of freedom above the base spring of every support on the bridge.
+    pub fn bridge_bases(&self) -> impl Iterator<Item = (usize, usize)> + '_ {
+        self.on_bridge.iter().map(|support| (support * self.elements_per_bay, self.base_dof(*support)))
+    }
+
+    /// k d + c ḋ of the base springs on the bridge; `deck` is [d…, ḋ…].
+    pub fn deck_forces(&self, deck: &[f64], forces: &mut [f64]) {
         let (d, v) = deck.split_at(self.on_bridge.len());
-        for ((support, d), v) in self.on_bridge.iter().zip(d).zip(v) {
-            f[self.base_dof(*support)] += self.base.stiffness * d + self.base.damping * v;
+        for ((force, d), v) in forces.iter_mut().zip(d).zip(v) {
+            *force = self.base.stiffness * d + self.base.damping * v;
+        }
+    }
+
+    /// f += deck forces at the degrees of freedom they act on.
+    pub fn add_deck_forces(&self, forces: &[f64], f: &mut [f64]) {
+        for ((_, base), force) in self.bridge_bases().zip(forces) {
+            f[base] += force;
         }
     }
 

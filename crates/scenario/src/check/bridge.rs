@@ -90,18 +90,19 @@ fn modes(pieces: &Pieces, freedoms: usize, report: &mut Report) {
     }
 }
 
-/// Degrees of freedom of a structure's model; of a frame an upper bound.
+/// Degrees of freedom of a structure's model; of a frame an upper bound. Numbers of elements may be anything.
 fn degrees_of_freedom(structure: &StructureSpec) -> usize {
+    let sum = |counts: &mut dyn Iterator<Item = usize>| counts.fold(0, usize::saturating_add);
     match structure {
         StructureSpec::Beams { spans, continuous } => {
-            let elements: usize = spans.iter().map(|span| span.elements).sum();
-            // two per node, less one per bearing
-            if *continuous { 2 * (elements + 1) - (spans.len() + 1) } else { 2 * elements }
+            let free = sum(&mut spans.iter().map(|span| span.elements)).saturating_mul(2);
+            // two per node, less one per bearing: between simple spans every bearing belongs to two of them
+            if *continuous { free.saturating_add(1).saturating_sub(spans.len()) } else { free }
         }
         StructureSpec::Frame(frame) => {
-            let inner: usize = frame.members.iter().map(|member| member.elements.saturating_sub(1)).sum();
-            let fixed: usize = frame.nodes.iter().map(|node| node.fixed.len()).sum();
-            (3 * (frame.nodes.len() + inner)).saturating_sub(fixed)
+            let inner = sum(&mut frame.members.iter().map(|member| member.elements.saturating_sub(1)));
+            let fixed = sum(&mut frame.nodes.iter().map(|node| node.fixed.len()));
+            inner.saturating_add(frame.nodes.len()).saturating_mul(3).saturating_sub(fixed)
         }
     }
 }

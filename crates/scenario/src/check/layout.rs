@@ -5,12 +5,13 @@ use crate::deck::Deck;
 use crate::pieces::Pieces;
 use crate::problem::Report;
 use crate::resolve::Resolved;
-use crate::travel::{distance, wheel_offsets};
+use crate::travel::{distance, speed_at, wheel_offsets};
 use crate::types::{Bridge, Irregularity, Track};
 
 /// Relative slack for sums of lengths: a bridge may end exactly where the track ends.
 const ROUNDING: f64 = 1e-9;
-
+/// The schema's limit; more have been reported, and would take their time here.
+const MOST_BAYS: usize = 1_000_000;
 /// So many of the shortest waves fit into the table from which a random irregularity is read.
 const MOST_WAVES: f64 = 250_000.0;
 /// A random irregularity has at least this length, m.
@@ -52,9 +53,9 @@ pub(super) fn check(pieces: &Pieces, resolved: &Resolved, report: &mut Report) {
     if let (Some(rail), Some(way)) = (&rail, &way) {
         train_on_rail(rail, way, report);
     }
-    if let (Some(train), Some([[_, start], ..])) = (&pieces.train, resolved.speed.as_deref())
+    if let (Some(train), Some(speed)) = (&pieces.train, &resolved.speed)
         && train.pre_roll > 0.0
-        && *start == 0.0
+        && speed_at(speed, 0.0) == 0.0
     {
         report.problem("$.train.pre_roll", "a pre-roll needs a speed above 0 at the start", train.pre_roll);
     }
@@ -72,7 +73,12 @@ fn rail(pieces: &Pieces, resolved: &Resolved) -> Option<Rail> {
     let (laid, track) = (pieces.track.as_ref()?, resolved.track.as_ref()?);
     let to = laid.from + laid.bays as f64 * track.spacing;
     let element = track.spacing / laid.elements_per_bay.max(1) as f64;
-    (track.spacing > 0.0).then_some(Rail { from: laid.from, to, spacing: track.spacing, element })
+    (track.spacing > 0.0 && laid.bays <= MOST_BAYS).then_some(Rail {
+        from: laid.from,
+        to,
+        spacing: track.spacing,
+        element,
+    })
 }
 
 /// The train's run, if its numbers make sense.

@@ -1,12 +1,14 @@
 //! The scenario file as types; the doc comments are the JSON Schema's descriptions.
 
 mod bridge;
+mod frame;
 mod irregularity;
 mod run;
 mod track;
 mod train;
 
 pub use bridge::*;
+pub use frame::*;
 pub use irregularity::*;
 pub use run::*;
 pub use track::*;

@@ -1,6 +1,6 @@
 //! Checks a JSON value against the schema and reports everything that does not fit, not only the first thing.
 //!
-//! It knows the keywords that [`crate::schema`] produces (a test tells when it produces another). Where the schema offers
+//! It knows the keywords that [`crate::schema()`] produces (a test tells when it produces another). Where the schema offers
 //! branches, `branch` first finds the one that was meant, so that a misspelt key deep inside an irregularity of type
 //! `spectrum` is reported as just that.
 
@@ -137,6 +137,9 @@ mod tests {
             UNDERSTOOD.split_whitespace().chain(ANNOTATIONS.split_whitespace()).map(str::to_owned).collect();
         assert_eq!(found.difference(&known).collect::<Vec<_>>(), Vec::<&String>::new());
         let text = schema.to_string();
-        assert_eq!(text.matches("\"pattern\":").count(), text.matches(&format!("\"pattern\":\"{NAME_PATTERN}\"")).count());
+        assert_eq!(
+            text.matches("\"pattern\":").count(),
+            text.matches(&format!("\"pattern\":\"{NAME_PATTERN}\"")).count()
+        );
     }
 }

@@ -16,15 +16,15 @@ const BEAMS: &str = include_str!("beams.json");
 const FRAME: &str = include_str!("frame.json");
 
 /// What is done to the scenario, and what must be found.
-pub struct Case {
+struct Case {
     name: &'static str,
-    /// (JSON pointer, JSON to put there); no JSON: take away what is there.
+    /// (JSON pointer, JSON to put there); no JSON: take away what is there. `%` stands for the pointer to the frame.
     changes: &'static [(&'static str, &'static str)],
-    /// (path, rule).
+    /// (path, rule). `%` stands for the path of the frame.
     expected: &'static [(&'static str, &'static str)],
 }
 
-pub fn case(
+fn case(
     name: &'static str,
     changes: &'static [(&'static str, &'static str)],
     expected: &'static [(&'static str, &'static str)],
@@ -33,23 +33,25 @@ pub fn case(
 }
 
 /// Where the measured profiles of the tests lie.
-pub fn folder() -> PathBuf {
+fn folder() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/broken")
 }
 
 /// Runs every case of a table; reports all that fail.
-pub fn try_all(base: &str, cases: &[Case]) {
+fn try_all(base: &str, cases: &[Case]) {
     let mut failures = Vec::new();
     for case in cases {
         let mut scenario: Value = serde_json::from_str(base).unwrap();
         for (pointer, json) in case.changes {
-            change(&mut scenario, pointer, json);
+            change(&mut scenario, &pointer.replace('%', "/bridge/structure/frame"), json);
         }
+        let expected: BTreeSet<_> =
+            case.expected.iter().map(|(path, rule)| (path.replace('%', "$.bridge.structure.frame"), *rule)).collect();
         let result = from_str(&scenario.to_string(), &folder(), "broken.json");
         let found = result.err().unwrap_or(Problems(Vec::new()));
-        let pairs: BTreeSet<_> = found.0.iter().map(|p| (p.path.as_str(), p.rule.as_str())).collect();
-        if pairs != case.expected.iter().copied().collect() || found.0.len() != case.expected.len() {
-            failures.push(format!("{}:\n{found}\nexpected {:#?}", case.name, case.expected));
+        let pairs: BTreeSet<_> = found.0.iter().map(|p| (p.path.clone(), p.rule.as_str())).collect();
+        if pairs != expected || found.0.len() != expected.len() {
+            failures.push(format!("{}:\n{found}\nexpected {expected:#?}", case.name));
         }
     }
     assert!(failures.is_empty(), "{}", failures.join("\n\n"));
@@ -77,5 +79,42 @@ fn the_scenarios_that_are_broken_here_are_whole() {
     for base in [BEAMS, FRAME] {
         let checked = from_str(base, &folder(), "base").unwrap_or_else(|problems| panic!("{problems}"));
         assert_eq!(checked.warnings, Vec::<String>::new());
+    }
+}
+
+/// All JSON pointers into a value.
+fn places(value: &Value, at: &str, found: &mut Vec<String>) {
+    let inner: Vec<(String, &Value)> = match value {
+        Value::Object(map) => map.iter().map(|(key, value)| (key.clone(), value)).collect(),
+        Value::Array(list) => list.iter().enumerate().map(|(i, value)| (i.to_string(), value)).collect(),
+        _ => Vec::new(),
+    };
+    for (key, value) in inner {
+        let path = format!("{at}/{key}");
+        places(value, &path, found);
+        found.push(path);
+    }
+}
+
+#[test]
+fn whatever_stands_wherever_the_answer_is_a_scenario_or_problems() {
+    let odd = ["null", "true", "-1", "0", "1", "1e300", "-1e300", "1e-300", "18446744073709551615", "\"\"", "[]", "{}"];
+    for base in [BEAMS, FRAME] {
+        let whole: Value = serde_json::from_str(base).unwrap();
+        let mut found = Vec::new();
+        places(&whole, "", &mut found);
+        for place in &found {
+            for value in odd {
+                let mut scenario = whole.clone();
+                change(&mut scenario, place, value);
+                if let Err(problems) = from_str(&scenario.to_string(), &folder(), "odd.json") {
+                    assert!(!problems.0.is_empty(), "{place} = {value}");
+                    assert!(
+                        problems.0.iter().all(|p| p.rule != "must fit the schema"),
+                        "{place} = {value}: {problems}"
+                    );
+                }
+            }
+        }
     }
 }

@@ -37,71 +37,93 @@ fn faults_against_the_schema_are_all_found() {
                     ("$.bridge.damping.ratio", "must be at most 1"),
                 ],
             ),
-            case("negative damping", &[("/train/cars/0/primary_damping", "-1")], &[(
-                "$.train.cars[0].primary_damping",
-                "must be at least 0",
-            )]),
+            case(
+                "negative damping",
+                &[("/train/cars/0/primary_damping", "-1")],
+                &[("$.train.cars[0].primary_damping", "must be at least 0")],
+            ),
             case("text for a number", &[("/time/step", "\"1 ms\"")], &[("$.time.step", "must be a number")]),
             case("number for a text", &[("/title", "3")], &[("$.title", "must be a text")]),
             case("list for an object", &[("/contact", "[]")], &[("$.contact", "must be an object")]),
             case("object for a list", &[("/bridge/points", "{}")], &[("$.bridge.points", "must be a list")]),
             case("null", &[("/bridge/at", "null")], &[("$.bridge.at", "must be a number")]),
-            case("number for a switch", &[("/output/supports", "1")], &[("$.output.supports", "must be true or false")]),
+            case(
+                "number for a switch",
+                &[("/output/supports", "1")],
+                &[("$.output.supports", "must be true or false")],
+            ),
             case("fraction for a count", &[("/track/bays", "400.5")], &[("$.track.bays", "must be a whole number")]),
             case("negative count", &[("/track/bays", "-400")], &[("$.track.bays", "must be at least 2")]),
             case("scenario is a list", &[("/train", "[]")], &[("$.train", "must be an object")]),
             case("zero step", &[("/time/step", "0")], &[("$.time.step", "must be greater than 0")]),
             case("negative step", &[("/time/step", "-0.001")], &[("$.time.step", "must be greater than 0")]),
             case("no cars", &[("/train/cars", "[]")], &[("$.train.cars", "must have at least 1 entries")]),
-            case("unknown car", &[("/train/cars/1", "\"ice-trailer\"")], &[(
-                "$.train.cars[1]",
-                "must be one of ice3-motor, ice3-trailer, velaro-e, manchester, shinkansen-s300, ice3",
-            )]),
+            case(
+                "unknown car",
+                &[("/train/cars/1", "\"ice-trailer\"")],
+                &[(
+                    "$.train.cars[1]",
+                    "must be one of ice3-motor, ice3-trailer, velaro-e, manchester, shinkansen-s300, ice3",
+                )],
+            ),
             case("number for a car", &[("/train/cars/1", "3")], &[("$.train.cars[1]", "must be a text or an object")]),
-            case("unknown track", &[("/track/type", "\"slap\"")], &[(
-                "$.track.type",
-                "must be one of slab, ballast-zhai, ballast-two-layer",
-            )]),
-            case("unknown spectrum", &[("/irregularity/spectrum", "\"FRA\"")], &[(
-                "$.irregularity.spectrum",
-                "must be one of german-low, german-high, sncf-good, sncf-poor, china-ballastless",
-            )]),
-            case("unknown contact law", &[("/contact/law", "\"herz\"")], &[(
-                "$.contact.law",
-                "must be one of hertz, linear",
-            )]),
-            case("unknown kind of irregularity", &[("/irregularity/type", "\"spektrum\"")], &[(
-                "$.irregularity.type",
-                "must be one of none, harmonics, spectrum, measured",
-            )]),
+            case(
+                "unknown track",
+                &[("/track/type", "\"slap\"")],
+                &[("$.track.type", "must be one of slab, ballast-zhai, ballast-two-layer")],
+            ),
+            case(
+                "unknown spectrum",
+                &[("/irregularity/spectrum", "\"FRA\"")],
+                &[(
+                    "$.irregularity.spectrum",
+                    "must be one of german-low, german-high, sncf-good, sncf-poor, china-ballastless",
+                )],
+            ),
+            case(
+                "unknown contact law",
+                &[("/contact/law", "\"herz\"")],
+                &[("$.contact.law", "must be one of hertz, linear")],
+            ),
+            case(
+                "unknown kind of irregularity",
+                &[("/irregularity/type", "\"spektrum\"")],
+                &[("$.irregularity.type", "must be one of none, harmonics, spectrum, measured")],
+            ),
             case("kind missing", &[("/bridge/structure/type", "")], &[("$.bridge.structure.type", "missing key")]),
             case("key of another kind", &[("/irregularity/waves", "[]")], &[("$.irregularity.waves", "unknown key")]),
-            case("two speeds", &[("/train/speed/m_s", "50")], &[(
-                "$.train.speed",
-                "must have exactly one of the keys km_h, m_s, profile",
-            )]),
-            case("misspelt unit of speed", &[("/train/speed", "{\"kmh\": 180}")], &[(
-                "$.train.speed",
-                "must have exactly one of the keys km_h, m_s, profile",
-            )]),
+            case(
+                "two speeds",
+                &[("/train/speed/m_s", "50")],
+                &[("$.train.speed", "must have exactly one of the keys km_h, m_s, profile")],
+            ),
+            case(
+                "misspelt unit of speed",
+                &[("/train/speed", "{\"kmh\": 180}")],
+                &[("$.train.speed", "must have exactly one of the keys km_h, m_s, profile")],
+            ),
             case("bare number for a speed", &[("/train/speed", "180")], &[("$.train.speed", "must be an object")]),
-            case("three wavelengths", &[("/irregularity/wavelengths", "[1, 2, 3]")], &[(
-                "$.irregularity.wavelengths",
-                "must have 2 entries",
-            )]),
+            case(
+                "three wavelengths",
+                &[("/irregularity/wavelengths", "[1, 2, 3]")],
+                &[("$.irregularity.wavelengths", "must have 2 entries")],
+            ),
             case("negative seed", &[("/irregularity/seed", "-1")], &[("$.irregularity.seed", "must be at least 0")]),
-            case("blank in a point's name", &[("/bridge/points/0/name", "\"mid span\"")], &[(
-                "$.bridge.points[0].name",
-                "must be a name of letters, digits, - and _",
-            )]),
-            case("too many wheels", &[("/contact/wheels_per_axle", "3")], &[(
-                "$.contact.wheels_per_axle",
-                "must be at most 2",
-            )]),
-            case("no trials", &[("/coupling/max_iterations", "0")], &[(
-                "$.coupling.max_iterations",
-                "must be at least 1",
-            )]),
+            case(
+                "blank in a point's name",
+                &[("/bridge/points/0/name", "\"mid span\"")],
+                &[("$.bridge.points[0].name", "must be a name of letters, digits, - and _")],
+            ),
+            case(
+                "too many wheels",
+                &[("/contact/wheels_per_axle", "3")],
+                &[("$.contact.wheels_per_axle", "must be at most 2")],
+            ),
+            case(
+                "no trials",
+                &[("/coupling/max_iterations", "0")],
+                &[("$.coupling.max_iterations", "must be at least 1")],
+            ),
             case(
                 "five faults in five sections",
                 &[
@@ -115,7 +137,10 @@ fn faults_against_the_schema_are_all_found() {
                     ("$.train.cars[0].wheelbase", "must be a number"),
                     ("$.contact.tred", "unknown key"),
                     ("$.track.type.support.fastener.stiffness", "must be greater than 0"),
-                    ("$.irregularity.wavelengths", "wavelengths must be [shortest, longest] with 0 < shortest < longest"),
+                    (
+                        "$.irregularity.wavelengths",
+                        "wavelengths must be [shortest, longest] with 0 < shortest < longest",
+                    ),
                     ("$.bridge.points[1].x", "a point must lie on the bridge"),
                 ],
             ),

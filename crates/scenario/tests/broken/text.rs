@@ -17,7 +17,10 @@ fn numbers_that_are_none_are_reported_with_their_path_and_hide_nothing() {
     let rule = "must be a finite number";
     assert_eq!(found("60,", "NaN,"), format!("broken.json: $.train.front_wheel: {rule}: NaN"));
     assert_eq!(found("\"km_h\": 180", "\"km_h\": 1e999"), format!("broken.json: $.train.speed.km_h: {rule}: 1e999"));
-    assert_eq!(found("[3, 80]", "[3, Infinity]"), format!("broken.json: $.irregularity.wavelengths[1]: {rule}: Infinity"));
+    assert_eq!(
+        found("[3, 80]", "[3, Infinity]"),
+        format!("broken.json: $.irregularity.wavelengths[1]: {rule}: Infinity")
+    );
     assert_eq!(
         found("\"step\": 1e-3, \"end\": 2", "\"step\": -Infinity, \"end\": -2"),
         format!("broken.json: $.time.step: {rule}: -Infinity\nbroken.json: $.time.end: must be greater than 0: -2")
@@ -32,8 +35,10 @@ fn repeated_keys_are_reported() {
 
 #[test]
 fn syntax_errors_tell_place_and_what_was_expected() {
-    let expected = "broken.json: $.bridge.points[1]: not JSON: expected a value: found `]` in line 36, column 71";
-    assert_eq!(found("{ \"name\": \"second\", \"x\": 40 }]", "              ]"), expected.replace("71", "61"));
+    assert_eq!(
+        found("{ \"name\": \"second\", \"x\": 40 }]", "]"),
+        "broken.json: $.bridge.points[1]: not JSON: expected a value: found `]` in line 37, column 44"
+    );
     assert_eq!(
         found("\"front_wheel\": 60,", "\"front_wheel\": 60"),
         "broken.json: $.train: not JSON: expected a comma or }: found `\"` in line 13, column 5"
@@ -45,7 +50,10 @@ fn syntax_errors_tell_place_and_what_was_expected() {
     let text = |text: &str| from_str(text, &folder(), "f").unwrap_err().to_string();
     assert_eq!(text(""), "f: $: not JSON: expected a value: found the end of the file in line 1, column 1");
     assert_eq!(text("{} {}"), "f: not JSON: expected the end of the file: found `{` in line 1, column 4");
-    assert_eq!(text("{\"title\": \"open"), "f: $.title: not JSON: expected a text in double quotes: found `\"` in line 1, column 11");
+    assert_eq!(
+        text("{\"title\": \"open"),
+        "f: $.title: not JSON: expected a text in double quotes: found `\"` in line 1, column 11"
+    );
     assert_eq!(text("3"), "f: $: must be an object: 3");
     assert!(text(&"[".repeat(10_000)).contains("expected less nesting"));
 }

@@ -1,0 +1,81 @@
+//! The bridge's interface list: names and order are the contract with the train–track side and with every master.
+
+use ttb_coupling::{Interface, Variable};
+use ttb_scenario::spec::BridgeSpec;
+
+use crate::structure::Structure;
+
+/// Positions of the parameters within their group.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Parameters {
+    /// ζ.
+    pub damping_ratio: f64,
+    /// k.
+    pub stiffness_factor: f64,
+    /// m.
+    pub mass_factor: f64,
+    /// h, s.
+    pub step_size: f64,
+    /// γ.
+    pub gamma: f64,
+    /// β.
+    pub beta: f64,
+}
+
+/// The list for a structure.
+pub fn list(spec: &BridgeSpec, structure: &Structure) -> Interface {
+    let supports = 1..=structure.supports.len();
+    let forces = supports.clone().map(|i| {
+        Variable::input(format!("support[{i}].force"), "N", "Force of the track on the bridge, positive down")
+    });
+    let mut outputs: Vec<Variable> = Vec::new();
+    outputs.extend(supports.clone().map(|i| {
+        Variable::output(format!("support[{i}].displacement"), "m", "Displacement of the deck under the support, positive down")
+    }));
+    outputs.extend(supports.map(|i| {
+        Variable::output(format!("support[{i}].velocity"), "m/s", "Velocity of the deck under the support, positive down")
+    }));
+    for point in &structure.points {
+        let mut add = |what: &str, unit, description: &str| {
+            outputs.push(Variable::output(format!("point[{}].{what}", point.name), unit, description));
+        };
+        add("displacement", "m", "Displacement of the monitored point");
+        add("velocity", "m/s", "Velocity of the monitored point");
+        add("acceleration", "m/s2", "Acceleration of the monitored point; with held inputs its mean over the step");
+        if point.moment.is_some() {
+            add("moment", "N.m", "Bending moment of the deck at the monitored point, sagging positive");
+        }
+    }
+    let parameters = vec![
+        Variable::parameter("damping_ratio", "1", structure.damping_ratio(), "Damping ratio, from 0 to 1"),
+        Variable::parameter("stiffness_factor", "1", 1.0, "Factor on all stiffness, positive"),
+        Variable::parameter("mass_factor", "1", 1.0, "Factor on all mass, positive"),
+        Variable::parameter("step_size", "s", spec.step, "Step that is factorised for; longer steps are divided"),
+        Variable::parameter("gamma", "1", spec.newmark.gamma, "Newmark's gamma, from 0.5 to 1"),
+        Variable::parameter("beta", "1", spec.newmark.beta, "Newmark's beta, positive; unconditionally stable from gamma/2 on"),
+    ];
+    Interface::new(forces.collect(), outputs, parameters)
+}
+
+impl Parameters {
+    /// Reads the group of parameters.
+    pub fn read(group: &[f64]) -> Option<Self> {
+        let &[damping_ratio, stiffness_factor, mass_factor, step_size, gamma, beta] = group else { return None };
+        Some(Self { damping_ratio, stiffness_factor, mass_factor, step_size, gamma, beta })
+    }
+
+    /// The first one that cannot be: its name, value and rule.
+    pub fn impossible(&self) -> Option<String> {
+        let positive = |x: f64| x > 0.0 && x.is_finite();
+        let rules = [
+            ("damping_ratio", self.damping_ratio, (0.0..=1.0).contains(&self.damping_ratio), "between 0 and 1"),
+            ("stiffness_factor", self.stiffness_factor, positive(self.stiffness_factor), "positive"),
+            ("mass_factor", self.mass_factor, positive(self.mass_factor), "positive"),
+            ("step_size", self.step_size, positive(self.step_size), "positive"),
+            ("gamma", self.gamma, (0.5..=1.0).contains(&self.gamma), "between 0.5 and 1"),
+            ("beta", self.beta, positive(self.beta), "positive"),
+        ];
+        let (name, value, _, rule) = rules.into_iter().find(|(_, _, possible, _)| !possible)?;
+        Some(format!("parameter {name} is {value}; it must be {rule}"))
+    }
+}

@@ -1,0 +1,117 @@
+//! An FMU as one side of the coupling.
+
+use super::description::VariableType;
+use super::error::FmuError;
+use super::instance::FmuInstance;
+use super::state::StateSlot;
+use ttb_coupling::{Failure, Subsystem};
+
+/// An instance with the value references of its coupled variables, in the order of the connections. Everything the
+/// iteration needs is allocated here, once.
+pub struct FmuSubsystem {
+    instance: FmuInstance,
+    inputs: Vec<u32>,
+    orders: Vec<i32>,
+    outputs: Vec<u32>,
+    slot: StateSlot,
+    /// Time the outputs belong to in s, for messages.
+    time: f64,
+}
+
+impl FmuSubsystem {
+    /// Couples Reals by name.
+    ///
+    /// # Errors
+    /// A variable that does not exist, is no Real, or is no input or output: all of them in one message.
+    pub fn new<S: AsRef<str>>(mut instance: FmuInstance, inputs: &[S], outputs: &[S]) -> Result<Self, FmuError> {
+        let mut problems = Vec::new();
+        let mut find = |names: &[S], causality: &str| -> Vec<u32> {
+            let checked = names.iter().map(AsRef::as_ref).map(|name| match instance.description().variable(name) {
+                None => Err(format!("it has no variable {name}")),
+                Some(v) if v.kind != VariableType::Real => Err(format!("{name} is no Real")),
+                Some(v) if v.causality != causality => Err(format!("{name} is no {causality} but a {}", v.causality)),
+                Some(v) => Ok(v.value_reference),
+            });
+            checked.filter_map(|found| found.map_err(|problem| problems.push(problem)).ok()).collect()
+        };
+        let (inputs, outputs) = (find(inputs, "input"), find(outputs, "output"));
+        if !problems.is_empty() {
+            return Err(instance.impossible(problems.join("; ")));
+        }
+        let slot = instance.new_slot();
+        Ok(Self { orders: vec![1; inputs.len()], inputs, outputs, slot, instance, time: 0.0 })
+    }
+
+    /// The instance, e.g. for its tally, its messages, or to set parameters.
+    pub fn instance(&mut self) -> &mut FmuInstance {
+        &mut self.instance
+    }
+
+    /// Reads any Reals, for recording; they may be NaN.
+    ///
+    /// # Errors
+    /// The FMU refuses.
+    pub fn read(&mut self, references: &[u32], values: &mut [f64]) -> Result<(), Failure> {
+        self.instance.get_real(references, values).map_err(|e| self.failure(&e))
+    }
+
+    /// The message without the instance's name, which a [`Failure`] carries itself.
+    #[cold]
+    fn failure(&self, error: &FmuError) -> Failure {
+        let subsystem = self.instance.name().to_string();
+        let message = error.to_string();
+        let message = message.strip_prefix(&format!("{subsystem}: ")).map_or(message.clone(), str::to_string);
+        Failure { subsystem, message }
+    }
+
+    #[cold]
+    fn not_finite(&self, index: usize, value: f64) -> Failure {
+        let reference = self.outputs[index];
+        let is_it = |v: &&super::ScalarVariable| v.value_reference == reference && v.causality == "output";
+        let variable = self.instance.description().variables.iter().find(is_it);
+        let variable = variable.map_or_else(|| format!("#{reference}"), |v| v.name.clone());
+        let instance = self.instance.name().to_string();
+        self.failure(&FmuError::NotFinite { instance, variable, value, time: self.time })
+    }
+}
+
+impl Subsystem for FmuSubsystem {
+    fn set_inputs(&mut self, values: &[f64], rates: Option<&[f64]>) -> Result<(), Failure> {
+        let set = self.instance.set_real(&self.inputs, values);
+        let set = match rates {
+            Some(rates) => set.and_then(|()| self.instance.set_input_derivatives(&self.inputs, &self.orders, rates)),
+            None => set,
+        };
+        set.map_err(|e| self.failure(&e))
+    }
+
+    /// Refuses NaN and infinity: one such number would poison everything it meets.
+    fn get_outputs(&mut self, outputs: &mut [f64]) -> Result<(), Failure> {
+        self.instance.get_real(&self.outputs, outputs).map_err(|e| self.failure(&e))?;
+        match outputs.iter().position(|x| !x.is_finite()) {
+            None => Ok(()),
+            Some(index) => Err(self.not_finite(index, outputs[index])),
+        }
+    }
+
+    fn exit_initialization(&mut self) -> Result<(), Failure> {
+        self.instance.exit_initialization().map_err(|e| self.failure(&e))
+    }
+
+    fn step(&mut self, t: f64, h: f64, may_restore: bool) -> Result<(), Failure> {
+        self.time = t + h;
+        self.instance.do_step(t, h, may_restore).map_err(|e| self.failure(&e))
+    }
+
+    fn save(&mut self) -> Result<(), Failure> {
+        self.instance.save(&self.slot).map_err(|e| self.failure(&e))
+    }
+
+    fn restore(&mut self) -> Result<(), Failure> {
+        self.instance.restore(&self.slot).map_err(|e| self.failure(&e))
+    }
+
+    fn can_interpolate(&self) -> bool {
+        self.instance.can_interpolate()
+    }
+}

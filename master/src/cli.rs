@@ -1,0 +1,81 @@
+//! The command line: one definition for parsing and help.
+
+use std::path::PathBuf;
+
+use clap::{Args, Parser, Subcommand};
+
+/// Train–track–bridge co-simulation.
+///
+/// A train with its track and a bridge are two FMUs (FMI 2.0 co-simulation); this program couples them by iterating the
+/// forces of the track's supports on the deck until both sides agree, at every time step.
+#[derive(Debug, Parser)]
+#[command(name = "ttb", version, max_term_width = 100, after_help = AFTER_HELP)]
+pub struct Cli {
+    /// What to do.
+    #[command(subcommand)]
+    pub command: Command,
+}
+
+const AFTER_HELP: &str = "\
+First steps:
+  ttb run                      an ICE 3 over a cable-stayed bridge, results in ttb-out/
+  ttb run examples/r1.json     a small published case
+  ttb check-scenario MY.json   every problem of a scenario at once
+
+Exit codes:
+  0 ok   2 bad input   3 not converged   4 an FMU failed   5 input/output   130 interrupted, results kept";
+
+/// The commands.
+#[derive(Debug, Subcommand)]
+pub enum Command {
+    /// Run a scenario: build its FMUs, couple them, write results
+    #[command(after_help = RUN_HELP)]
+    Run(Run),
+    /// Only build TrainTrack.fmu and Bridge.fmu
+    Build(Build),
+    /// Check a scenario and print all its problems
+    CheckScenario {
+        /// The scenario file
+        scenario: PathBuf,
+    },
+    /// Print the JSON Schema of scenario files
+    #[command(after_help = "Put it beside your scenarios and name it in them, \"$schema\": \"scenario.schema.json\": editors then complete and check.")]
+    Schema,
+}
+
+const RUN_HELP: &str = "\
+The output folder gets
+  results.csv      time, then every output by its FMI name, SI units (opens in FMPy, pandas, spreadsheets)
+  iterations.csv   one row a step: iterations, residual, contraction, roll-backs, seconds
+  summary.json     peaks with place and time, contact forces, iterations, timing, versions
+  results.svg      deck, cars and wheels over time
+  *.fmu            the two FMUs that were run";
+
+/// Arguments of `ttb run`.
+#[derive(Debug, Args)]
+pub struct Run {
+    /// The scenario file [default: the bundled ICE 3 over a cable-stayed bridge]
+    pub scenario: Option<PathBuf>,
+    /// Folder for the results
+    #[arg(short, long, default_value = "ttb-out")]
+    pub output: PathBuf,
+    /// Use this FMU as the train–track subsystem instead of building one
+    #[arg(long, value_name = "FMU")]
+    pub train_track: Option<PathBuf>,
+    /// Use this FMU as the bridge instead of building one
+    #[arg(long, value_name = "FMU")]
+    pub bridge: Option<PathBuf>,
+    /// No progress, no summary
+    #[arg(short, long)]
+    pub quiet: bool,
+}
+
+/// Arguments of `ttb build`.
+#[derive(Debug, Args)]
+pub struct Build {
+    /// The scenario file [default: the bundled ICE 3 over a cable-stayed bridge]
+    pub scenario: Option<PathBuf>,
+    /// Folder for the FMUs
+    #[arg(short, long, default_value = ".")]
+    pub output: PathBuf,
+}

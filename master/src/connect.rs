@@ -1,0 +1,105 @@
+//! From two FMU files to two coupled subsystems: variables of equal name are connected.
+
+use std::collections::HashSet;
+use std::path::Path;
+
+use ttb_coupling::iteration::{OnFailure, Settings};
+use ttb_coupling::predictor::Predictor;
+use ttb_coupling::{Coupling, Subsystem};
+use ttb_fmi2::import::{Fmu, FmuInstance, FmuSubsystem, ModelDescription, VariableType};
+use ttb_scenario::Checked;
+use ttb_scenario::types::{Method, OnFailure as Policy, Predictor as First, Send};
+
+use crate::error::Error;
+
+/// Both FMUs in initialization mode, and their coupling.
+pub struct Connected {
+    /// The train–track FMU.
+    pub train_track: FmuSubsystem,
+    /// The bridge FMU.
+    pub bridge: FmuSubsystem,
+    /// The iteration.
+    pub coupling: Coupling,
+    /// What was noticed.
+    pub warnings: Vec<String>,
+}
+
+/// Loads both FMUs, enters initialization mode, connects.
+pub fn connect(train_track: &Path, bridge: &Path, checked: &Checked) -> Result<Connected, Error> {
+    let end = checked.train_track.end;
+    let train_track = instantiate(train_track, "TrainTrack", end)?;
+    let bridge = instantiate(bridge, "Bridge", end)?;
+    let forces = shared(train_track.description(), bridge.description());
+    let motions = shared(bridge.description(), train_track.description());
+    let mut warnings = Vec::new();
+    if let Some(open) = unconnected(train_track.description(), &motions) {
+        return Err(Error::Input(format!("{}: no output of {} has the name of its input {open}", train_track.name(), bridge.name())));
+    }
+    if forces.is_empty() || motions.is_empty() {
+        let (a, b) = (bridge.name(), train_track.name());
+        return Err(Error::Input(format!("{a} and {b} share no variable of equal name that is an input of one and an output of the other")));
+    }
+    if let Some(open) = unconnected(bridge.description(), &forces) {
+        warnings.push(format!("{}: input {open} is connected to nothing and keeps its start value", bridge.name()));
+    }
+    let settings = settings(checked);
+    for fmu in [&train_track, &bridge] {
+        if settings.max_iterations > 1 && !fmu.can_restore() {
+            return Err(Error::Input(format!(
+                "{} cannot save and restore its state (canGetAndSetFMUstate), so its steps cannot be iterated; one pass a step is \
+                 coupling.max_iterations = 1 with on_failure = accept, which is only accurate for heavy bridges and small steps",
+                fmu.name()
+            )));
+        }
+    }
+    let train_track = FmuSubsystem::new(train_track, &motions, &forces)?;
+    let bridge = FmuSubsystem::new(bridge, &forces, &motions)?;
+    if !train_track.can_interpolate() {
+        warnings.push("the train–track FMU cannot interpolate inputs: the deck's motion is sent as held means".into());
+    }
+    let coupling = Coupling::new(forces.len(), motions.len(), settings);
+    Ok(Connected { train_track, bridge, coupling, warnings })
+}
+
+fn instantiate(path: &Path, name: &str, end: f64) -> Result<FmuInstance, Error> {
+    let mut instance = Fmu::open(path)?.instantiate(name, false)?;
+    instance.setup_experiment(0.0, Some(end))?;
+    instance.enter_initialization()?;
+    Ok(instance)
+}
+
+/// Real outputs of `from` that are Real inputs of `to`, in the order of the inputs.
+fn shared(from: &ModelDescription, to: &ModelDescription) -> Vec<String> {
+    let outputs: HashSet<&str> = from.with_causality("output").filter(|v| v.kind == VariableType::Real).map(|v| v.name.as_str()).collect();
+    let inputs = to.with_causality("input").filter(|v| v.kind == VariableType::Real);
+    inputs.filter(|v| outputs.contains(v.name.as_str())).map(|v| v.name.clone()).collect()
+}
+
+/// The first input that is not among `connected`, and how many more there are.
+fn unconnected(description: &ModelDescription, connected: &[String]) -> Option<String> {
+    let connected: HashSet<&str> = connected.iter().map(String::as_str).collect();
+    let mut open = description.with_causality("input").filter(|v| !connected.contains(v.name.as_str()));
+    let first = open.next()?.name.clone();
+    let more = open.count();
+    Some(if more == 0 { first } else { format!("{first} (and {more} more)") })
+}
+
+fn settings(checked: &Checked) -> Settings {
+    let coupling = &checked.scenario.coupling;
+    Settings {
+        aitken: coupling.method == Method::Aitken,
+        predictor: match coupling.predictor {
+            First::Constant => Predictor::Constant,
+            First::Linear => Predictor::Linear,
+        },
+        tolerance: coupling.tolerance,
+        force_scale: checked.axle_load,
+        max_iterations: coupling.max_iterations,
+        hold_forces: coupling.send == Send::Mean,
+        on_failure: match coupling.on_failure {
+            Policy::Stop => OnFailure::Stop,
+            Policy::Halve => OnFailure::Halve,
+            Policy::Accept => OnFailure::Accept,
+        },
+    }
+}

@@ -1,0 +1,83 @@
+//! Everything that ends a command, and its exit code.
+
+use std::path::{Path, PathBuf};
+
+use ttb_coupling::IterationError;
+use ttb_fmi2::import::FmuError;
+use ttb_scenario::Problems;
+
+/// Why a command failed.
+#[derive(Debug, thiserror::Error)]
+pub enum Error {
+    /// The scenario has problems.
+    #[error("{0}")]
+    Scenario(Problems),
+    /// Two FMUs that cannot be coupled as asked.
+    #[error("{0}")]
+    Input(String),
+    /// A step did not converge.
+    #[error("{0}")]
+    NotConverged(IterationError),
+    /// An FMU failed.
+    #[error("{0}")]
+    Fmu(String),
+    /// A file.
+    #[error("{}: {source}", path.display())]
+    Io {
+        /// Which.
+        path: PathBuf,
+        /// Why.
+        source: std::io::Error,
+    },
+    /// Packing an FMU.
+    #[error("{0}")]
+    Pack(String),
+    /// Ctrl-C.
+    #[error("interrupted; the results so far are kept")]
+    Interrupted,
+}
+
+impl Error {
+    /// Exit code, see `ttb --help`.
+    pub fn code(&self) -> u8 {
+        match self {
+            Self::Scenario(_) | Self::Input(_) => 2,
+            Self::NotConverged(_) => 3,
+            Self::Fmu(_) => 4,
+            Self::Io { .. } | Self::Pack(_) => 5,
+            Self::Interrupted => 130,
+        }
+    }
+
+    /// One word for the summary's status.
+    pub fn status(&self) -> &'static str {
+        match self {
+            Self::Scenario(_) | Self::Input(_) => "bad-input",
+            Self::NotConverged(_) => "not-converged",
+            Self::Fmu(_) => "fmu-failed",
+            Self::Io { .. } | Self::Pack(_) => "io-failed",
+            Self::Interrupted => "interrupted",
+        }
+    }
+
+    /// An I/O error at a path.
+    pub fn io(path: &Path) -> impl FnOnce(std::io::Error) -> Self {
+        let path = path.to_path_buf();
+        move |source| Self::Io { path, source }
+    }
+}
+
+impl From<IterationError> for Error {
+    fn from(error: IterationError) -> Self {
+        match error {
+            IterationError::Subsystem(failure) => Self::Fmu(failure.to_string()),
+            other => Self::NotConverged(other),
+        }
+    }
+}
+
+impl From<FmuError> for Error {
+    fn from(error: FmuError) -> Self {
+        Self::Fmu(error.to_string())
+    }
+}

@@ -1,0 +1,135 @@
+//! What a run leaves behind step by step: results.csv and iterations.csv, and every value at hand for peaks and plots.
+
+use std::fs::File;
+use std::io::BufWriter;
+use std::path::{Path, PathBuf};
+
+use csv::Writer;
+use ttb_coupling::StepInfo;
+use ttb_coupling::iteration::Outcome;
+use ttb_fmi2::import::{FmuSubsystem, ModelDescription, VariableType};
+
+use crate::error::Error;
+
+/// A recorded variable.
+#[derive(Clone, Debug)]
+pub struct Column {
+    /// FMI name.
+    pub name: String,
+    /// Unit from the FMU's description, empty if it names none.
+    pub unit: String,
+}
+
+/// Columns, the present row and the open files.
+pub struct Recorder {
+    /// All recorded variables: those of the train–track FMU, then the bridge's.
+    pub columns: Vec<Column>,
+    /// Their present values.
+    pub row: Vec<f64>,
+    references: [Vec<u32>; 2],
+    results: Table,
+    iterations: Table,
+    every: u64,
+    last: u64,
+}
+
+impl Recorder {
+    /// Opens both files in `folder` and writes their headers. Variables of the supports are left out unless asked for.
+    pub fn new(folder: &Path, train_track: &mut FmuSubsystem, bridge: &mut FmuSubsystem, supports: bool, every: usize, last: u64) -> Result<Self, Error> {
+        let mut columns = Vec::new();
+        let references = [train_track, bridge].map(|fmu| outputs(fmu.instance().description(), supports, &mut columns));
+        let names = columns.iter().map(|c| c.name.as_str());
+        let results = Table::create(&folder.join("results.csv"), std::iter::once("time").chain(names))?;
+        let header = ["time", "iterations", "residual", "contraction", "roll_backs", "halvings", "converged", "seconds"];
+        let iterations = Table::create(&folder.join("iterations.csv"), header.into_iter())?;
+        Ok(Self { row: vec![0.0; columns.len()], columns, references, results, iterations, every: every as u64, last })
+    }
+
+    /// Reads all recorded variables after step `n`, which ended at `t`, and writes the row if it is due.
+    pub fn record(&mut self, train_track: &mut FmuSubsystem, bridge: &mut FmuSubsystem, n: u64, t: f64) -> Result<(), Error> {
+        let (first, second) = self.row.split_at_mut(self.references[0].len());
+        train_track.read(&self.references[0], first).map_err(|e| Error::Fmu(e.to_string()))?;
+        bridge.read(&self.references[1], second).map_err(|e| Error::Fmu(e.to_string()))?;
+        if n.is_multiple_of(self.every) || n == self.last {
+            self.results.number(t)?;
+            self.row.iter().try_for_each(|x| self.results.number(*x))?;
+            self.results.end_row()?;
+        }
+        Ok(())
+    }
+
+    /// Writes the row of a step in iterations.csv; `seconds` is the step's wall time.
+    pub fn iteration(&mut self, t: f64, info: &StepInfo, seconds: f64) -> Result<(), Error> {
+        let table = &mut self.iterations;
+        table.number(t)?;
+        table.text(format_args!("{}", info.iterations))?;
+        table.number(info.residual)?;
+        table.number(info.contraction)?;
+        table.text(format_args!("{}", info.roll_backs))?;
+        table.text(format_args!("{}", info.halvings))?;
+        table.text(format_args!("{}", u8::from(info.outcome == Outcome::Converged)))?;
+        table.text(format_args!("{seconds:.6e}"))?;
+        table.end_row()
+    }
+
+    /// Position of a column.
+    pub fn find(&self, name: &str) -> Option<usize> {
+        self.columns.iter().position(|c| c.name == name)
+    }
+
+    /// Everything on disk.
+    pub fn flush(&mut self) -> Result<(), Error> {
+        self.results.flush()?;
+        self.iterations.flush()
+    }
+}
+
+/// Real outputs of an FMU that are to be recorded; appends their columns.
+fn outputs(description: &ModelDescription, supports: bool, columns: &mut Vec<Column>) -> Vec<u32> {
+    let wanted = |name: &str| supports || !name.starts_with("support[");
+    let outputs = description.with_causality("output").filter(|v| v.kind == VariableType::Real && wanted(&v.name));
+    let add = |v: &ttb_fmi2::import::ScalarVariable| {
+        columns.push(Column { name: v.name.clone(), unit: v.unit.clone().unwrap_or_default() });
+        v.value_reference
+    };
+    outputs.map(add).collect()
+}
+
+/// A CSV file written field by field through one reused buffer.
+struct Table {
+    path: PathBuf,
+    writer: Writer<BufWriter<File>>,
+    field: Vec<u8>,
+}
+
+impl Table {
+    fn create<'a>(path: &Path, header: impl Iterator<Item = &'a str>) -> Result<Self, Error> {
+        let file = File::create(path).map_err(Error::io(path))?;
+        let mut table = Self { path: path.to_path_buf(), writer: Writer::from_writer(BufWriter::new(file)), field: Vec::with_capacity(32) };
+        let written = table.writer.write_record(header);
+        table.check(written)?;
+        Ok(table)
+    }
+    /// 17 significant digits: reading it back gives the same bits.
+    fn number(&mut self, x: f64) -> Result<(), Error> {
+        self.text(format_args!("{x:.16e}"))
+    }
+    fn text(&mut self, text: std::fmt::Arguments) -> Result<(), Error> {
+        use std::io::Write;
+        self.field.clear();
+        // Writing to memory does not fail.
+        let _ = self.field.write_fmt(text);
+        let written = self.writer.write_field(&self.field);
+        self.check(written)
+    }
+    fn end_row(&mut self) -> Result<(), Error> {
+        let written = self.writer.write_record(None::<&[u8]>);
+        self.check(written)
+    }
+    fn flush(&mut self) -> Result<(), Error> {
+        self.writer.flush().map_err(Error::io(&self.path))
+    }
+    fn check(&self, written: Result<(), csv::Error>) -> Result<(), Error> {
+        written.map_err(|e| Error::Io { path: self.path.clone(), source: e.into() })
+    }
+}

@@ -1,0 +1,143 @@
+//! `ttb run`: build, connect, initialise, step, record, sum up.
+
+use std::ops::ControlFlow;
+use std::path::Path;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Instant;
+
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use ttb_coupling::run::{TimeAxis, run as run_steps};
+use ttb_fmi2::import::FmuSubsystem;
+use ttb_scenario::Checked;
+
+use crate::build;
+use crate::cli::Run;
+use crate::connect::{Connected, connect};
+use crate::error::Error;
+use crate::peaks::Peaks;
+use crate::plot::Plot;
+use crate::record::Recorder;
+use crate::summary::{Iterations, Seconds, Summary};
+
+/// Steps between two looks at the progress bar.
+const PROGRESS: u64 = 50;
+
+/// The command.
+pub fn run(arguments: &Run) -> Result<(), Error> {
+    let checked = build::scenario(arguments.scenario.as_deref())?;
+    let folder = &arguments.output;
+    std::fs::create_dir_all(folder).map_err(Error::io(folder))?;
+    let train_track = arguments.train_track.clone().map_or_else(|| build::train_track(&checked, folder), Ok)?;
+    let bridge = arguments.bridge.clone().map_or_else(|| build::bridge(&checked, folder), Ok)?;
+    let stop = stop_on_interrupt();
+    let begin = Instant::now();
+    let mut connected = connect(&train_track, &bridge, &checked)?;
+    let axis = TimeAxis::new(checked.train_track.step, checked.train_track.end);
+    let output = &checked.scenario.output;
+    let Connected { train_track, bridge, .. } = &mut connected;
+    let recorder = Recorder::new(folder, train_track, bridge, output.supports, output.every, axis.steps())?;
+    let mut log = Log {
+        peaks: Peaks::new(&recorder),
+        plot: Plot::new(&recorder, axis.steps()),
+        recorder,
+        iterations: Iterations::default(),
+        recording: 0.0,
+        reached: 0.0,
+        mark: Instant::now(),
+        bar: progress_bar(axis.steps(), arguments.quiet),
+    };
+    let mut seconds = Seconds::default();
+    let outcome = simulate(&mut connected, axis, &mut log, &stop, begin, &mut seconds);
+    log.bar.finish_and_clear();
+    let outcome = outcome.and(log.recorder.flush());
+    finish(&checked, &log, outcome, seconds, &connected.warnings, folder, arguments.quiet)
+}
+
+/// Results of a run as they come.
+struct Log {
+    recorder: Recorder,
+    peaks: Peaks,
+    plot: Plot,
+    iterations: Iterations,
+    recording: f64,
+    reached: f64,
+    mark: Instant,
+    bar: ProgressBar,
+}
+
+impl Log {
+    /// After step `n` (0: initialization), which ended at `t` and took `h`.
+    fn step(&mut self, train_track: &mut FmuSubsystem, bridge: &mut FmuSubsystem, n: u64, t: f64, h: f64) -> Result<(), Error> {
+        self.recorder.record(train_track, bridge, n, t)?;
+        self.peaks.update(&self.recorder.row, t, h);
+        self.plot.update(&self.recorder.row, t);
+        self.reached = t;
+        if n.is_multiple_of(PROGRESS) {
+            self.bar.set_position(n);
+        }
+        Ok(())
+    }
+}
+
+fn simulate(connected: &mut Connected, axis: TimeAxis, log: &mut Log, stop: &AtomicBool, begin: Instant, seconds: &mut Seconds) -> Result<(), Error> {
+    let Connected { train_track, bridge, coupling, .. } = connected;
+    coupling.initialise(train_track, bridge, 0.0)?;
+    log.step(train_track, bridge, 0, 0.0, 0.0)?;
+    let inside = |fmu: &mut FmuSubsystem| fmu.instance().tally().time.as_secs_f64();
+    let before = [inside(train_track), inside(bridge)];
+    seconds.initialization = begin.elapsed().as_secs_f64();
+    let begin = Instant::now();
+    let mut reading = [0.0; 2];
+    log.mark = begin;
+    let ended = run_steps(coupling, train_track, bridge, axis, |train_track, bridge, n, t, info| {
+        let stepped = Instant::now();
+        let inside_before = [inside(train_track), inside(bridge)];
+        log.iterations.count(info);
+        log.recorder.iteration(t, info, (stepped - log.mark).as_secs_f64())?;
+        log.step(train_track, bridge, n, t, axis.size(n - 1))?;
+        reading[0] += inside(train_track) - inside_before[0];
+        reading[1] += inside(bridge) - inside_before[1];
+        log.mark = Instant::now();
+        log.recording += (log.mark - stepped).as_secs_f64();
+        Ok::<_, Error>(if stop.load(Ordering::Relaxed) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) })
+    });
+    seconds.stepping = begin.elapsed().as_secs_f64();
+    seconds.recording = log.recording;
+    seconds.train_track = inside(train_track) - before[0] - reading[0];
+    seconds.bridge = inside(bridge) - before[1] - reading[1];
+    seconds.master = seconds.stepping - seconds.recording - seconds.train_track - seconds.bridge;
+    if ended?.is_break() { Err(Error::Interrupted) } else { Ok(()) }
+}
+
+/// Summary and picture, also of a run that failed; its error is passed on.
+fn finish(checked: &Checked, log: &Log, outcome: Result<(), Error>, seconds: Seconds, warnings: &[String], folder: &Path, quiet: bool) -> Result<(), Error> {
+    let summary = Summary::new(checked, &outcome, log.reached, &log.iterations, seconds, warnings, &log.peaks);
+    let written = summary.write(&folder.join("summary.json"));
+    if !quiet {
+        summary.print(folder);
+    }
+    let picture = folder.join("results.svg");
+    let drawn = log.plot.draw(&picture, &checked.scenario.title);
+    let drawn = drawn.map_err(|e| Error::Io { path: picture, source: std::io::Error::other(e) });
+    outcome.and(written).and(drawn)
+}
+
+/// Set by Ctrl-C; the run then ends after the step it is in.
+fn stop_on_interrupt() -> Arc<AtomicBool> {
+    let stop = Arc::new(AtomicBool::new(false));
+    let flag = Arc::clone(&stop);
+    // Without a handler Ctrl-C ends the program at once: no reason not to run.
+    if let Err(error) = ctrlc::set_handler(move || flag.store(true, Ordering::Relaxed)) {
+        eprintln!("ttb: warning: Ctrl-C will not keep results: {error}");
+    }
+    stop
+}
+
+/// A progress bar on a terminal, nothing elsewhere.
+fn progress_bar(steps: u64, quiet: bool) -> ProgressBar {
+    let target = if quiet { ProgressDrawTarget::hidden() } else { ProgressDrawTarget::stderr() };
+    let bar = ProgressBar::with_draw_target(Some(steps), target);
+    let style = ProgressStyle::with_template("{bar:40} {pos}/{len} steps, {eta} left");
+    bar.with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))
+}

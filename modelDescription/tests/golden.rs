@@ -1,0 +1,98 @@
+//! The XML of a small model with every kind of variable, compared with golden/small.xml letter by letter (but for GUID,
+//! version and licence, which follow the workspace).
+//!
+//! After an intended change: `UPDATE_GOLDEN=1 cargo test -p ttb-model-description`, then read the difference.
+
+use std::path::Path;
+use ttb_coupling::{Interface, Kind, Variable};
+use ttb_model_description::{About, Contents, XmlError, pack, xml};
+
+const CHOICES: Kind = Kind::Enumeration(&[("Held", "inputs are held"), ("Line", "inputs run along a line")]);
+
+fn interface() -> Interface {
+    let input = |i: usize| Variable::input(format!("support[{i}].force"), "N", "force on the bridge, downwards");
+    let mut through = Variable::output("support[1].displacement", "m", "at the \"abutment\" <first>\nin track order");
+    through.feed_through = true;
+    Interface::new(
+        vec![input(1), input(2)],
+        vec![through, Variable::output("point[mid].moment", "N.m", "")],
+        vec![
+            Variable::parameter("damping.ratio", "1", 0.01, "of all modes"),
+            Variable::parameter_of("inputs", CHOICES, 2.0, "meaning of inputs"),
+            Variable::parameter_of("track.weight", Kind::Boolean, 1.0, "whether the track's weight counts"),
+            Variable::parameter_of("seed", Kind::Integer { min: 0, max: 99 }, 7.0, "of the random phases"),
+        ],
+    )
+}
+
+fn about() -> About<'static> {
+    let description = "A bridge & its supports.";
+    About { model_identifier: "Small", model_name: "Small", description, step: 1e-3, stop: 12.5, directional_derivatives: true }
+}
+
+#[test]
+fn the_description_of_the_small_model_is_the_golden_one() {
+    let text = xml(&interface(), &about()).unwrap();
+    let text = text.replace(&ttb_model_description::guid("Small", &interface()), "{GUID}");
+    let text = text.replace(concat!("\"", env!("CARGO_PKG_VERSION"), "\""), "\"VERSION\"");
+    let text = text.replace(concat!("ttb ", env!("CARGO_PKG_VERSION")), "ttb VERSION");
+    let text = text.replace(concat!("license=\"", env!("CARGO_PKG_LICENSE"), "\""), "license=\"LICENSE\"");
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("golden/small.xml");
+    if std::env::var_os("UPDATE_GOLDEN").is_some() {
+        std::fs::write(&path, &text).unwrap();
+    }
+    assert_eq!(text, std::fs::read_to_string(path).unwrap());
+}
+
+#[test]
+fn what_fmi_cannot_express_is_refused_by_name() {
+    let with = |name: &str, unit| xml(&Interface::new(vec![], vec![], vec![Variable::parameter(name, unit, 1.0, "")]), &about());
+    assert!(matches!(with("a", "furlong"), Err(XmlError::UnknownUnit { variable, .. }) if variable == "a"));
+    assert!(matches!(with("force[1,2]", "N"), Err(XmlError::BadName(name)) if name == "force[1,2]"));
+    let twice = || Variable::input("a", "N", "");
+    assert!(matches!(xml(&Interface::new(vec![twice(), twice()], vec![], vec![]), &about()), Err(XmlError::Duplicate(_))));
+    let nan = Variable::parameter("a", "N", f64::NAN, "");
+    assert!(matches!(xml(&Interface::new(vec![], vec![], vec![nan]), &about()), Err(XmlError::NotFinite { .. })));
+}
+
+#[test]
+fn the_same_contents_make_the_same_archive_in_fmi_order() {
+    let folder = tempfile::tempdir().unwrap();
+    let binary = folder.path().join("libanything.so");
+    let resources = folder.path().join("in");
+    std::fs::create_dir_all(resources.join("deep")).unwrap();
+    std::fs::write(&binary, [0x7f, b'E', b'L', b'F']).unwrap();
+    std::fs::write(resources.join("model.json"), "{}").unwrap();
+    std::fs::write(resources.join("deep/matrix.bin"), [1, 2, 3]).unwrap();
+    let (interface, about) = (interface(), about());
+    let licenses = [("LICENSE.txt", "MIT OR Apache-2.0")];
+    let contents = Contents { interface: &interface, about: &about, binary: &binary, resources: Some(&resources), licenses: &licenses };
+    let (one, two) = (folder.path().join("one.fmu"), folder.path().join("two.fmu"));
+    pack(&contents, &one).unwrap();
+    pack(&contents, &two).unwrap();
+    assert_eq!(std::fs::read(&one).unwrap(), std::fs::read(&two).unwrap());
+
+    let archive = zip::ZipArchive::new(std::fs::File::open(&one).unwrap()).unwrap();
+    let names: Vec<String> = archive.file_names().map(|name| name.unwrap().into_owned()).collect();
+    let binary = format!("binaries/{}/Small.so", ttb_model_description::package::PLATFORM);
+    let expected = [
+        "modelDescription.xml",
+        &binary,
+        "documentation/index.html",
+        "documentation/licenses/LICENSE.txt",
+        "resources/deep/matrix.bin",
+        "resources/model.json",
+    ];
+    assert_eq!(names, expected);
+}
+
+#[test]
+fn a_missing_binary_is_named_and_leaves_nothing_behind() {
+    let folder = tempfile::tempdir().unwrap();
+    let (interface, about) = (interface(), about());
+    let binary = Path::new("/nowhere/libnothing.so");
+    let contents = Contents { interface: &interface, about: &about, binary, resources: None, licenses: &[] };
+    let error = pack(&contents, &folder.path().join("x.fmu")).unwrap_err().to_string();
+    assert!(error.starts_with("/nowhere/libnothing.so cannot be read"), "{error}");
+    assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
+}
