@@ -1,1 +1,139 @@
-//! tests
+//! Shared by the tests of the whole: a scenario run without FMUs, and the table it gives.
+
+use std::ops::ControlFlow;
+use std::path::PathBuf;
+
+use ttb_bridge::Bridge;
+use ttb_coupling::iteration::{IterationError, OnFailure, Settings};
+use ttb_coupling::predictor::Predictor;
+use ttb_coupling::run::{TimeAxis, run};
+use ttb_coupling::{Coupling, InProcess, Instance, Interface, Model};
+use ttb_scenario::Checked;
+use ttb_scenario::types::Method;
+use ttb_train_track::TrainTrack;
+
+/// Results by name, one vector over time each, row 0 at t = 0.
+pub struct Table {
+    /// t, s.
+    pub time: Vec<f64>,
+    /// Names and values of all outputs.
+    pub columns: Vec<(String, Vec<f64>)>,
+    /// Trials of every step.
+    pub iterations: Vec<usize>,
+}
+
+impl Table {
+    /// A column by name.
+    ///
+    /// # Panics
+    /// There is no such column.
+    pub fn column(&self, name: &str) -> &[f64] {
+        &self.columns.iter().find(|(n, _)| n == name).unwrap_or_else(|| panic!("no column {name}")).1
+    }
+    /// Least and greatest value of a column.
+    pub fn range(&self, name: &str) -> (f64, f64) {
+        let fold = |f: fn(f64, f64) -> f64, start| self.column(name).iter().copied().fold(start, f);
+        (fold(f64::min, f64::INFINITY), fold(f64::max, f64::NEG_INFINITY))
+    }
+}
+
+/// The examples folder.
+pub fn examples() -> PathBuf {
+    PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../examples")
+}
+
+/// An example scenario.
+///
+/// # Panics
+/// It has problems.
+pub fn example(name: &str) -> Checked {
+    ttb_scenario::load(&examples().join(name)).unwrap_or_else(|problems| panic!("{problems}"))
+}
+
+/// The coupling settings of a scenario.
+pub fn settings(checked: &Checked) -> Settings {
+    let c = &checked.scenario.coupling;
+    Settings {
+        aitken: c.method == Method::Aitken,
+        predictor: Predictor::Linear,
+        tolerance: c.tolerance,
+        force_scale: checked.axle_load,
+        max_iterations: c.max_iterations,
+        hold_forces: false,
+        on_failure: OnFailure::Stop,
+    }
+}
+
+/// Both subsystems in initialization mode, wired by equal names, and the value references of their outputs.
+pub struct Pair {
+    /// The train–track subsystem.
+    pub train_track: InProcess<TrainTrack>,
+    /// The bridge subsystem.
+    pub bridge: InProcess<Bridge>,
+    /// Number of coupled forces and motions.
+    pub coupled: (usize, usize),
+    outputs: [(Vec<String>, Vec<u32>); 2],
+}
+
+/// Makes the pair of a scenario.
+///
+/// # Panics
+/// A subsystem refuses its data.
+pub fn pair(checked: &Checked) -> Pair {
+    let train_track = TrainTrack::new(checked.train_track.clone()).expect("train and track");
+    let bridge = Bridge::new(checked.bridge.clone()).expect("bridge");
+    let (a, b) = (train_track.interface().clone(), bridge.interface().clone());
+    let references = |of: &Interface, other: &Interface, outputs: bool| -> Vec<u32> {
+        // Forces in the order of the bridge's inputs, motions in that of the train–track subsystem's.
+        let order = if outputs { other.inputs() } else { of.inputs() };
+        let names = order.map(|r| if outputs { &other.variables()[r].name } else { &of.variables()[r].name });
+        names.filter_map(|n| of.find(n)).map(|r| r as u32).collect()
+    };
+    let mut train_track_instance = Instance::new(train_track);
+    let mut bridge_instance = Instance::new(bridge);
+    train_track_instance.enter_initialization(0.0).expect("initialization");
+    bridge_instance.enter_initialization(0.0).expect("initialization");
+    let outputs = [&a, &b].map(|interface| {
+        let names = interface.outputs().map(|r| interface.variables()[r].name.clone());
+        (names.collect(), interface.outputs().map(|r| r as u32).collect())
+    });
+    let coupled = (b.inputs().len(), a.inputs().len());
+    let train_track =
+        InProcess::new("TrainTrack", train_track_instance, references(&a, &b, false), references(&a, &b, true));
+    let bridge = InProcess::new("Bridge", bridge_instance, references(&b, &a, false), references(&b, &a, true));
+    Pair { train_track, bridge, coupled, outputs }
+}
+
+/// The hybrid algorithm on the plain libraries; every output of both subsystems is kept.
+///
+/// # Panics
+/// The run fails.
+pub fn library_run(checked: &Checked) -> Table {
+    let Pair { mut train_track, mut bridge, coupled, outputs } = pair(checked);
+    let mut coupling = Coupling::new(coupled.0, coupled.1, settings(checked));
+    coupling.initialise(&mut train_track, &mut bridge, 0.0).expect("static equilibrium");
+    let names = outputs.iter().enumerate().flat_map(|(i, (names, _))| {
+        // Motions of the supports stand on both sides; the bridge's are outputs, the other side's inputs.
+        names.iter().map(move |n| (i, n.clone()))
+    });
+    let mut table =
+        Table { time: Vec::new(), columns: names.map(|(_, n)| (n, Vec::new())).collect(), iterations: Vec::new() };
+    let mut row = vec![0.0; table.columns.len()];
+    let mut record =
+        |train_track: &mut InProcess<TrainTrack>, bridge: &mut InProcess<Bridge>, t: f64, table: &mut Table| {
+            let (first, second) = row.split_at_mut(outputs[0].1.len());
+            train_track.instance().get(&outputs[0].1, first).expect("outputs");
+            bridge.instance().get(&outputs[1].1, second).expect("outputs");
+            table.time.push(t);
+            table.columns.iter_mut().zip(&row).for_each(|((_, column), x)| column.push(*x));
+        };
+    record(&mut train_track, &mut bridge, 0.0, &mut table);
+    let axis = TimeAxis::new(checked.train_track.step, checked.train_track.end);
+    let ended = run(&mut coupling, &mut train_track, &mut bridge, axis, |train_track, bridge, _, t, info| {
+        record(train_track, bridge, t, &mut table);
+        table.iterations.push(info.iterations);
+        Ok::<_, IterationError>(ControlFlow::Continue(()))
+    });
+    assert!(ended.expect("run").is_continue());
+    table
+}

@@ -100,6 +100,9 @@ fn library(name: &str) -> Result<PathBuf, Error> {
     let folder = program.parent().unwrap_or(Path::new("."));
     let places = [folder.join("deps"), folder.to_path_buf(), folder.join("../lib/ttb")].map(|p| p.join(&file));
     places.iter().find(|p| p.is_file()).cloned().ok_or_else(|| {
-        Error::Pack(format!("the shared library {file} is missing; it was looked for in deps/ and beside {}", program.display()))
+        Error::Pack(format!(
+            "the shared library {file} is missing; it was looked for in deps/ and beside {}",
+            program.display()
+        ))
     })
 }

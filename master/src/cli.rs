@@ -39,7 +39,9 @@ pub enum Command {
         scenario: PathBuf,
     },
     /// Print the JSON Schema of scenario files
-    #[command(after_help = "Put it beside your scenarios and name it in them, \"$schema\": \"scenario.schema.json\": editors then complete and check.")]
+    #[command(
+        after_help = "Put it beside your scenarios and name it in them, \"$schema\": \"scenario.schema.json\": editors then complete and check."
+    )]
     Schema,
 }
 

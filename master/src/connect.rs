@@ -33,11 +33,17 @@ pub fn connect(train_track: &Path, bridge: &Path, checked: &Checked) -> Result<C
     let motions = shared(bridge.description(), train_track.description());
     let mut warnings = Vec::new();
     if let Some(open) = unconnected(train_track.description(), &motions) {
-        return Err(Error::Input(format!("{}: no output of {} has the name of its input {open}", train_track.name(), bridge.name())));
+        return Err(Error::Input(format!(
+            "{}: no output of {} has the name of its input {open}",
+            train_track.name(),
+            bridge.name()
+        )));
     }
     if forces.is_empty() || motions.is_empty() {
         let (a, b) = (bridge.name(), train_track.name());
-        return Err(Error::Input(format!("{a} and {b} share no variable of equal name that is an input of one and an output of the other")));
+        return Err(Error::Input(format!(
+            "{a} and {b} share no variable of equal name that is an input of one and an output of the other"
+        )));
     }
     if let Some(open) = unconnected(bridge.description(), &forces) {
         warnings.push(format!("{}: input {open} is connected to nothing and keeps its start value", bridge.name()));
@@ -70,7 +76,8 @@ fn instantiate(path: &Path, name: &str, end: f64) -> Result<FmuInstance, Error> 
 
 /// Real outputs of `from` that are Real inputs of `to`, in the order of the inputs.
 fn shared(from: &ModelDescription, to: &ModelDescription) -> Vec<String> {
-    let outputs: HashSet<&str> = from.with_causality("output").filter(|v| v.kind == VariableType::Real).map(|v| v.name.as_str()).collect();
+    let outputs: HashSet<&str> =
+        from.with_causality("output").filter(|v| v.kind == VariableType::Real).map(|v| v.name.as_str()).collect();
     let inputs = to.with_causality("input").filter(|v| v.kind == VariableType::Real);
     inputs.filter(|v| outputs.contains(v.name.as_str())).map(|v| v.name.clone()).collect()
 }

@@ -38,7 +38,11 @@ fn execute(command: Command) -> Result<(), Error> {
         Command::CheckScenario { scenario } => {
             let checked = build::scenario(Some(&scenario))?;
             let supports = checked.bridge.supports.len();
-            println!("{}: no problems; {} cars, {supports} supports on the bridge", scenario.display(), checked.train_track.cars.len());
+            println!(
+                "{}: no problems; {} cars, {supports} supports on the bridge",
+                scenario.display(),
+                checked.train_track.cars.len()
+            );
             Ok(())
         }
         Command::Schema => {

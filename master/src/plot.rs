@@ -72,7 +72,11 @@ impl Plot {
         self.draw_on(&root, title).map_err(|e| e.to_string())
     }
 
-    fn draw_on(&self, root: &DrawingArea<SVGBackend, Shift>, title: &str) -> Result<(), Box<dyn std::error::Error + '_>> {
+    fn draw_on(
+        &self,
+        root: &DrawingArea<SVGBackend, Shift>,
+        title: &str,
+    ) -> Result<(), Box<dyn std::error::Error + '_>> {
         root.fill(&WHITE)?;
         let root = root.titled(title, ("sans-serif", 20))?;
         let end = self.time.last().copied().unwrap_or(1.0);
@@ -94,10 +98,17 @@ impl Plot {
             for (curve, color) in curves.iter().zip(COLORS) {
                 let points = thin(&self.time, &curve.values).map(|(t, x)| (t, x * factor));
                 let series = LineSeries::new(points, color.stroke_width(1));
-                chart.draw_series(series)?.label(&curve.name).legend(move |(x, y)| PathElement::new([(x, y), (x + 14, y)], color));
+                chart
+                    .draw_series(series)?
+                    .label(&curve.name)
+                    .legend(move |(x, y)| PathElement::new([(x, y), (x + 14, y)], color));
             }
             if !curves.is_empty() {
-                chart.configure_series_labels().position(SeriesLabelPosition::UpperRight).background_style(WHITE.mix(0.8)).draw()?;
+                chart
+                    .configure_series_labels()
+                    .position(SeriesLabelPosition::UpperRight)
+                    .background_style(WHITE.mix(0.8))
+                    .draw()?;
             }
         }
         root.present()?;

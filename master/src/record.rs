@@ -35,18 +35,32 @@ pub struct Recorder {
 
 impl Recorder {
     /// Opens both files in `folder` and writes their headers. Variables of the supports are left out unless asked for.
-    pub fn new(folder: &Path, train_track: &mut FmuSubsystem, bridge: &mut FmuSubsystem, supports: bool, every: usize, last: u64) -> Result<Self, Error> {
+    pub fn new(
+        folder: &Path,
+        train_track: &mut FmuSubsystem,
+        bridge: &mut FmuSubsystem,
+        supports: bool,
+        every: usize,
+        last: u64,
+    ) -> Result<Self, Error> {
         let mut columns = Vec::new();
         let references = [train_track, bridge].map(|fmu| outputs(fmu.instance().description(), supports, &mut columns));
         let names = columns.iter().map(|c| c.name.as_str());
         let results = Table::create(&folder.join("results.csv"), std::iter::once("time").chain(names))?;
-        let header = ["time", "iterations", "residual", "contraction", "roll_backs", "halvings", "converged", "seconds"];
+        let header =
+            ["time", "iterations", "residual", "contraction", "roll_backs", "halvings", "converged", "seconds"];
         let iterations = Table::create(&folder.join("iterations.csv"), header.into_iter())?;
         Ok(Self { row: vec![0.0; columns.len()], columns, references, results, iterations, every: every as u64, last })
     }
 
     /// Reads all recorded variables after step `n`, which ended at `t`, and writes the row if it is due.
-    pub fn record(&mut self, train_track: &mut FmuSubsystem, bridge: &mut FmuSubsystem, n: u64, t: f64) -> Result<(), Error> {
+    pub fn record(
+        &mut self,
+        train_track: &mut FmuSubsystem,
+        bridge: &mut FmuSubsystem,
+        n: u64,
+        t: f64,
+    ) -> Result<(), Error> {
         let (first, second) = self.row.split_at_mut(self.references[0].len());
         train_track.read(&self.references[0], first).map_err(|e| Error::Fmu(e.to_string()))?;
         bridge.read(&self.references[1], second).map_err(|e| Error::Fmu(e.to_string()))?;
@@ -105,7 +119,11 @@ struct Table {
 impl Table {
     fn create<'a>(path: &Path, header: impl Iterator<Item = &'a str>) -> Result<Self, Error> {
         let file = File::create(path).map_err(Error::io(path))?;
-        let mut table = Self { path: path.to_path_buf(), writer: Writer::from_writer(BufWriter::new(file)), field: Vec::with_capacity(32) };
+        let mut table = Self {
+            path: path.to_path_buf(),
+            writer: Writer::from_writer(BufWriter::new(file)),
+            field: Vec::with_capacity(32),
+        };
         let written = table.writer.write_record(header);
         table.check(written)?;
         Ok(table)

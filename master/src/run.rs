@@ -68,7 +68,14 @@ struct Log {
 
 impl Log {
     /// After step `n` (0: initialization), which ended at `t` and took `h`.
-    fn step(&mut self, train_track: &mut FmuSubsystem, bridge: &mut FmuSubsystem, n: u64, t: f64, h: f64) -> Result<(), Error> {
+    fn step(
+        &mut self,
+        train_track: &mut FmuSubsystem,
+        bridge: &mut FmuSubsystem,
+        n: u64,
+        t: f64,
+        h: f64,
+    ) -> Result<(), Error> {
         self.recorder.record(train_track, bridge, n, t)?;
         self.peaks.update(&self.recorder.row, t, h);
         self.plot.update(&self.recorder.row, t);
@@ -80,7 +87,14 @@ impl Log {
     }
 }
 
-fn simulate(connected: &mut Connected, axis: TimeAxis, log: &mut Log, stop: &AtomicBool, begin: Instant, seconds: &mut Seconds) -> Result<(), Error> {
+fn simulate(
+    connected: &mut Connected,
+    axis: TimeAxis,
+    log: &mut Log,
+    stop: &AtomicBool,
+    begin: Instant,
+    seconds: &mut Seconds,
+) -> Result<(), Error> {
     let Connected { train_track, bridge, coupling, .. } = connected;
     coupling.initialise(train_track, bridge, 0.0)?;
     log.step(train_track, bridge, 0, 0.0, 0.0)?;
@@ -111,7 +125,15 @@ fn simulate(connected: &mut Connected, axis: TimeAxis, log: &mut Log, stop: &Ato
 }
 
 /// Summary and picture, also of a run that failed; its error is passed on.
-fn finish(checked: &Checked, log: &Log, outcome: Result<(), Error>, seconds: Seconds, warnings: &[String], folder: &Path, quiet: bool) -> Result<(), Error> {
+fn finish(
+    checked: &Checked,
+    log: &Log,
+    outcome: Result<(), Error>,
+    seconds: Seconds,
+    warnings: &[String],
+    folder: &Path,
+    quiet: bool,
+) -> Result<(), Error> {
     let summary = Summary::new(checked, &outcome, log.reached, &log.iterations, seconds, warnings, &log.peaks);
     let written = summary.write(&folder.join("summary.json"));
     if !quiet {

@@ -129,7 +129,8 @@ impl<'a> Summary<'a> {
 
     /// Writes summary.json.
     pub fn write(&self, path: &Path) -> Result<(), Error> {
-        let text = serde_json::to_string_pretty(self).map_err(|e| Error::Io { path: path.to_path_buf(), source: e.into() })?;
+        let text =
+            serde_json::to_string_pretty(self).map_err(|e| Error::Io { path: path.to_path_buf(), source: e.into() })?;
         std::fs::write(path, text + "\n").map_err(Error::io(path))
     }
 
@@ -141,20 +142,33 @@ impl<'a> Summary<'a> {
         println!("  iterations      mean {:.2}, max {}, residual ≤ {:.1e}", i.mean, i.max, i.max_residual);
         println!(
             "  seconds         {:.2} stepping ({:.1} × real time): train–track {:.2}, bridge {:.2}, master {:.3}, results {:.2}; start {:.2}",
-            s.stepping, self.times_faster_than_real_time, s.train_track, s.bridge, s.master, s.recording, s.initialization
+            s.stepping,
+            self.times_faster_than_real_time,
+            s.train_track,
+            s.bridge,
+            s.master,
+            s.recording,
+            s.initialization
         );
         for peak in self.peaks.iter().filter(|p| p.name.starts_with("point[")) {
             let (factor, unit) = readable(&peak.unit);
             let (low, high) = (&peak.min, &peak.max);
             println!(
                 "  {:<34} {:>10.4} … {:<10.4} {unit}, at t = {:.3} s and {:.3} s",
-                peak.name, low.value * factor, high.value * factor, low.time, high.time
+                peak.name,
+                low.value * factor,
+                high.value * factor,
+                low.time,
+                high.time
             );
         }
         self.print_over("car[", "].acceleration", "car bodies, acceleration");
         self.print_over("wheel[", "].contact_force", "wheelsets, contact force");
         for loss in &self.contact_losses {
-            println!("  wheel {} lost contact {} times, {:.4} s in all, {:.4} s at most", loss.wheel, loss.intervals, loss.seconds, loss.longest);
+            println!(
+                "  wheel {} lost contact {} times, {:.4} s in all, {:.4} s at most",
+                loss.wheel, loss.intervals, loss.seconds, loss.longest
+            );
         }
         self.warnings.iter().for_each(|w| println!("  warning: {w}"));
         println!("  results in {}", folder.display());

@@ -34,7 +34,14 @@ impl<'a> About<'a> {
     /// Takes step, stop time and capability from a model.
     pub fn of<M: Model>(model: &M, model_identifier: &'a str, model_name: &'a str, description: &'a str) -> Self {
         let (step, stop) = model.default_experiment();
-        Self { model_identifier, model_name, description, step, stop, directional_derivatives: M::DIRECTIONAL_DERIVATIVES }
+        Self {
+            model_identifier,
+            model_name,
+            description,
+            step,
+            stop,
+            directional_derivatives: M::DIRECTIONAL_DERIVATIVES,
+        }
     }
 
     /// The description with the meaning of the derivatives, where there are any.

@@ -38,7 +38,8 @@ pub fn documentation(interface: &Interface, about: &About) -> String {
         ("Parameters", Causality::Parameter, "Default"),
     ];
     for (title, causality, start) in groups {
-        let group: Vec<_> = interface.variables().iter().enumerate().filter(|(_, v)| v.causality == causality).collect();
+        let group: Vec<_> =
+            interface.variables().iter().enumerate().filter(|(_, v)| v.causality == causality).collect();
         let _ = write!(
             page,
             "<h2>{title} ({})</h2>\n<table>\n<tr><th>Name</th><th>Unit or type</th><th>{start}</th><th>Meaning</th>\
@@ -62,5 +63,8 @@ fn row(reference: usize, v: &Variable) -> String {
         }
     };
     let (name, text) = (escape(&v.name), escape(&v.description));
-    format!("<tr><td><code>{name}</code></td><td>{}</td><td>{start}</td><td>{text}</td><td>{reference}</td></tr>\n", escape(kind))
+    format!(
+        "<tr><td><code>{name}</code></td><td>{}</td><td>{start}</td><td>{text}</td><td>{reference}</td></tr>\n",
+        escape(kind)
+    )
 }

@@ -134,7 +134,8 @@ impl<W: Write + io::Seek> Archive<'_, W> {
 
     fn folder(&mut self, name: &str, from: &Path) -> Result<(), PackError> {
         let unreadable = |source| PackError::Read { path: from.to_path_buf(), source };
-        let listed: io::Result<Vec<_>> = fs::read_dir(from).map_err(unreadable)?.map(|entry| entry.map(|e| e.path())).collect();
+        let listed: io::Result<Vec<_>> =
+            fs::read_dir(from).map_err(unreadable)?.map(|entry| entry.map(|e| e.path())).collect();
         let mut paths = listed.map_err(unreadable)?;
         paths.sort(); // directory order differs from machine to machine
         for path in paths {

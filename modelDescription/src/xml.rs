@@ -2,7 +2,7 @@
 //!
 //! Choices that every validator and importer at hand accepts, and why:
 //! * naming convention *flat*: `point[mid].displacement` is no structured name;
-//! * outputs are `exact` with a start value, so that no InitialUnknowns are needed;
+//! * outputs are `calculated`, without start, and stand in InitialUnknowns: their first value is static equilibrium;
 //! * `dependencies=""` for an output without direct feed-through; with it the attribute is absent, which means *all
 //!   inputs*: never a list of n² references;
 //! * the date is fixed, so that the same model gives the same file.
@@ -72,7 +72,9 @@ pub fn xml(interface: &Interface, about: &About) -> Result<String, XmlError> {
             type_definitions(xml, interface)?;
             xml.create_element("LogCategories").write_inner_content(|xml| {
                 for category in LOG_CATEGORIES {
-                    xml.create_element("Category").with_attributes([("name", category.0), ("description", category.1)]).write_empty()?;
+                    xml.create_element("Category")
+                        .with_attributes([("name", category.0), ("description", category.1)])
+                        .write_empty()?;
                 }
                 Ok(())
             })?;
@@ -82,7 +84,11 @@ pub fn xml(interface: &Interface, about: &About) -> Result<String, XmlError> {
                 .with_attribute(("stepSize", number(about.step).as_str()))
                 .write_empty()?;
             xml.create_element("ModelVariables").write_inner_content(|xml| {
-                interface.variables().iter().enumerate().try_for_each(|(reference, v)| scalar_variable(xml, reference, v, interface))
+                interface
+                    .variables()
+                    .iter()
+                    .enumerate()
+                    .try_for_each(|(reference, v)| scalar_variable(xml, reference, v, interface))
             })?;
             model_structure(xml, interface)
         })?;
@@ -179,7 +185,11 @@ fn type_definitions(xml: &mut Xml, interface: &Interface) -> io::Result<()> {
                     for (i, (name, description)) in items.iter().enumerate() {
                         let value = (i + 1).to_string();
                         xml.create_element("Item")
-                            .with_attributes([("name", *name), ("value", value.as_str()), ("description", *description)])
+                            .with_attributes([
+                                ("name", *name),
+                                ("value", value.as_str()),
+                                ("description", *description),
+                            ])
                             .write_empty()?;
                     }
                     Ok(())
@@ -205,8 +215,12 @@ fn scalar_variable(xml: &mut Xml, reference: usize, v: &Variable, interface: &In
     let continuous = if matches!(v.kind, Kind::Real { .. }) { "continuous" } else { "discrete" };
     element = match v.causality {
         Causality::Input => element.with_attributes([("causality", "input"), ("variability", continuous)]),
-        Causality::Output => element.with_attributes([("causality", "output"), ("variability", continuous), ("initial", "exact")]),
-        Causality::Parameter => element.with_attributes([("causality", "parameter"), ("variability", "fixed"), ("initial", "exact")]),
+        Causality::Output => {
+            element.with_attributes([("causality", "output"), ("variability", continuous), ("initial", "calculated")])
+        }
+        Causality::Parameter => {
+            element.with_attributes([("causality", "parameter"), ("variability", "fixed"), ("initial", "exact")])
+        }
     };
     element.write_inner_content(|xml| typed_start(xml, v, interface))?;
     Ok(())
@@ -218,7 +232,9 @@ fn typed_start(xml: &mut Xml, v: &Variable, interface: &Interface) -> io::Result
         Kind::Real { unit } => {
             let element = xml.create_element("Real");
             let element = if *unit == "1" { element } else { element.with_attribute(("unit", *unit)) };
-            element.with_attribute(("start", number(v.start).as_str())).write_empty()?;
+            // An output's first value is computed: static equilibrium.
+            let start = (v.causality != Causality::Output).then(|| number(v.start));
+            element.with_attributes(start.as_deref().map(|start| ("start", start))).write_empty()?;
         }
         Kind::Boolean => {
             let start = if v.start == 0.0 { "false" } else { "true" };
@@ -255,6 +271,15 @@ fn model_structure(xml: &mut Xml, interface: &Interface) -> io::Result<()> {
                 let truthful = interface.variables()[reference].feed_through;
                 let element = if truthful { element } else { element.with_attribute(("dependencies", "")) };
                 element.write_empty()?;
+            }
+            Ok(())
+        })?;
+        // In initialization mode every output answers with static equilibrium under all inputs: no dependencies named
+        // means all of them.
+        xml.create_element("InitialUnknowns").write_inner_content(|xml| {
+            for reference in interface.outputs() {
+                let index = (reference + 1).to_string();
+                xml.create_element("Unknown").with_attribute(("index", index.as_str())).write_empty()?;
             }
             Ok(())
         })?;

@@ -27,7 +27,14 @@ fn interface() -> Interface {
 
 fn about() -> About<'static> {
     let description = "A bridge & its supports.";
-    About { model_identifier: "Small", model_name: "Small", description, step: 1e-3, stop: 12.5, directional_derivatives: true }
+    About {
+        model_identifier: "Small",
+        model_name: "Small",
+        description,
+        step: 1e-3,
+        stop: 12.5,
+        directional_derivatives: true,
+    }
 }
 
 #[test]
@@ -46,11 +53,16 @@ fn the_description_of_the_small_model_is_the_golden_one() {
 
 #[test]
 fn what_fmi_cannot_express_is_refused_by_name() {
-    let with = |name: &str, unit| xml(&Interface::new(vec![], vec![], vec![Variable::parameter(name, unit, 1.0, "")]), &about());
+    let with = |name: &str, unit| {
+        xml(&Interface::new(vec![], vec![], vec![Variable::parameter(name, unit, 1.0, "")]), &about())
+    };
     assert!(matches!(with("a", "furlong"), Err(XmlError::UnknownUnit { variable, .. }) if variable == "a"));
     assert!(matches!(with("force[1,2]", "N"), Err(XmlError::BadName(name)) if name == "force[1,2]"));
     let twice = || Variable::input("a", "N", "");
-    assert!(matches!(xml(&Interface::new(vec![twice(), twice()], vec![], vec![]), &about()), Err(XmlError::Duplicate(_))));
+    assert!(matches!(
+        xml(&Interface::new(vec![twice(), twice()], vec![], vec![]), &about()),
+        Err(XmlError::Duplicate(_))
+    ));
     let nan = Variable::parameter("a", "N", f64::NAN, "");
     assert!(matches!(xml(&Interface::new(vec![], vec![], vec![nan]), &about()), Err(XmlError::NotFinite { .. })));
 }
@@ -66,7 +78,13 @@ fn the_same_contents_make_the_same_archive_in_fmi_order() {
     std::fs::write(resources.join("deep/matrix.bin"), [1, 2, 3]).unwrap();
     let (interface, about) = (interface(), about());
     let licenses = [("LICENSE.txt", "MIT OR Apache-2.0")];
-    let contents = Contents { interface: &interface, about: &about, binary: &binary, resources: Some(&resources), licenses: &licenses };
+    let contents = Contents {
+        interface: &interface,
+        about: &about,
+        binary: &binary,
+        resources: Some(&resources),
+        licenses: &licenses,
+    };
     let (one, two) = (folder.path().join("one.fmu"), folder.path().join("two.fmu"));
     pack(&contents, &one).unwrap();
     pack(&contents, &two).unwrap();

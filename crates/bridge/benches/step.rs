@@ -16,7 +16,8 @@ fn time(name: &str, spec: &BridgeSpec) {
     let mut bridge = stepping(spec);
     let setup = setup.elapsed();
     let n = spec.supports.len();
-    let (forces, rates): (Vec<f64>, Vec<f64>) = (0..n).map(|i| (1e4 * (i as f64).sin(), 1e5 * (i as f64).cos())).unzip();
+    let (forces, rates): (Vec<f64>, Vec<f64>) =
+        (0..n).map(|i| (1e4 * (i as f64).sin(), 1e5 * (i as f64).cos())).unzip();
     let mut outputs = vec![0.0; 2 * n];
     let references: Vec<u32> = (n as u32..3 * n as u32).collect();
     let mut saved = bridge.save();
@@ -55,7 +56,10 @@ fn main() {
     r1.supports.retain(|x| *x > 0.0 && *x < 32.5);
     r1.damping = damping.clone();
     time("R1", &r1);
-    time("R1, modal damping in 20 modes", &BridgeSpec { damping: Damping::Modal { ratio: 0.05, modes: 20 }, ..r1.clone() });
+    time(
+        "R1, modal damping in 20 modes",
+        &BridgeSpec { damping: Damping::Modal { ratio: 0.05, modes: 20 }, ..r1.clone() },
+    );
     time("R1, 3 modes", &BridgeSpec { modes: Some(3), ..r1.clone() });
 
     let frame = bundled::frame("cable-stayed-224").expect("a bundled frame");

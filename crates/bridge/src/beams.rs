@@ -13,8 +13,11 @@ use crate::mesh::{Element, Mesh, Node};
 /// The mesh of a beam bridge.
 ///
 /// # Errors
-/// A span without length, stiffness, mass or elements.
+/// No span, or one without length, stiffness, mass or elements.
 pub fn mesh(spans: &[Span], continuous: bool) -> Result<Mesh, ModelError> {
+    if spans.is_empty() {
+        return Err(ModelError("bridge: it has no spans; it needs at least one".into()));
+    }
     let (mut nodes, mut elements) = (Vec::<Node>::new(), Vec::new());
     let mut begin = 0.0;
     for (number, span) in (1..).zip(spans) {

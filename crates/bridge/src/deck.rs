@@ -45,7 +45,10 @@ impl Deck {
         for (index, element) in mesh.elements.iter().enumerate().filter(|(_, e)| e.deck) {
             let [a, b] = element.nodes.map(|node| &mesh.nodes[node]);
             if element.frame.direction()[1].abs() > STEEPEST {
-                return Err(ModelError(format!("bridge: the deck between nodes {} and {} is too steep", a.name, b.name)));
+                return Err(ModelError(format!(
+                    "bridge: the deck between nodes {} and {} is too steep",
+                    a.name, b.name
+                )));
             }
             let piece = Piece { element: index, from: a.x.min(b.x), to: a.x.max(b.x), backward: b.x < a.x };
             pieces.push(piece);
@@ -91,7 +94,8 @@ impl Deck {
     pub fn moment(&self, mesh: &Mesh, x: f64) -> Option<Row> {
         let sides: Vec<_> = self.at(x).collect();
         let share = 1.0 / sides.len() as f64;
-        let rows = sides.iter().flat_map(|&(element, xi)| row(mesh, element, share * mesh.elements[element].frame.moment(xi)));
+        let rows =
+            sides.iter().flat_map(|&(element, xi)| row(mesh, element, share * mesh.elements[element].frame.moment(xi)));
         let rows: Row = rows.collect();
         (!sides.is_empty()).then_some(rows)
     }

@@ -50,7 +50,11 @@ fn divide(
     let axial = section.modulus * section.area;
     match member.kind {
         MemberKind::Truss => {
-            elements.push(Element { nodes: ends, frame: FrameElement::truss(axial, section.mass, way), deck: member.deck });
+            elements.push(Element {
+                nodes: ends,
+                frame: FrameElement::truss(axial, section.mass, way),
+                deck: member.deck,
+            });
         }
         MemberKind::Cable => {
             let tension = member.tension.filter(|t| *t > 0.0 && t.is_finite());

@@ -105,12 +105,15 @@ impl Step for FullStep {
     fn history(&mut self, motion: &Motion, history: &mut History) {
         let History { load, known } = history;
         let motion = motion.u.iter().zip(&motion.v).zip(&motion.a);
-        for (((y, q), load), ((u, v), a)) in self.work.iter_mut().zip(known.iter_mut()).zip(load.iter_mut()).zip(motion) {
+        for (((y, q), load), ((u, v), a)) in self.work.iter_mut().zip(known.iter_mut()).zip(load.iter_mut()).zip(motion)
+        {
             *q = self.newmark.damping(*u, *v, *a);
             *y = self.mass * (self.newmark.inertia(*u, *v, *a) + self.alpha * *q);
             *load = 0.0;
         }
-        for ((rate, shape), mass_shape) in self.rates.iter().zip(&self.system.modes.shapes).zip(&self.system.mass_shapes) {
+        for ((rate, shape), mass_shape) in
+            self.rates.iter().zip(&self.system.modes.shapes).zip(&self.system.mass_shapes)
+        {
             let amplitude = self.mass * rate * dot(mass_shape, known);
             add_scaled(amplitude, shape, &mut self.work);
         }

@@ -5,7 +5,7 @@ use ttb_scenario::spec::BridgeSpec;
 
 use crate::structure::Structure;
 
-/// Positions of the parameters within their group.
+/// Values of the parameters, in the order of their group.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Parameters {
     /// ζ.
@@ -30,10 +30,18 @@ pub fn list(spec: &BridgeSpec, structure: &Structure) -> Interface {
     });
     let mut outputs: Vec<Variable> = Vec::new();
     outputs.extend(supports.clone().map(|i| {
-        Variable::output(format!("support[{i}].displacement"), "m", "Displacement of the deck under the support, positive down")
+        Variable::output(
+            format!("support[{i}].displacement"),
+            "m",
+            "Displacement of the deck under the support, positive down",
+        )
     }));
     outputs.extend(supports.map(|i| {
-        Variable::output(format!("support[{i}].velocity"), "m/s", "Velocity of the deck under the support, positive down")
+        Variable::output(
+            format!("support[{i}].velocity"),
+            "m/s",
+            "Velocity of the deck under the support, positive down",
+        )
     }));
     for point in &structure.points {
         let mut add = |what: &str, unit, description: &str| {
@@ -52,7 +60,12 @@ pub fn list(spec: &BridgeSpec, structure: &Structure) -> Interface {
         Variable::parameter("mass_factor", "1", 1.0, "Factor on all mass, positive"),
         Variable::parameter("step_size", "s", spec.step, "Step that is factorised for; longer steps are divided"),
         Variable::parameter("gamma", "1", spec.newmark.gamma, "Newmark's gamma, from 0.5 to 1"),
-        Variable::parameter("beta", "1", spec.newmark.beta, "Newmark's beta, positive; unconditionally stable from gamma/2 on"),
+        Variable::parameter(
+            "beta",
+            "1",
+            spec.newmark.beta,
+            "Newmark's beta, positive; unconditionally stable from gamma/2 on",
+        ),
     ];
     Interface::new(forces.collect(), outputs, parameters)
 }

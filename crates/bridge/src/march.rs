@@ -71,20 +71,29 @@ impl March {
         self.law = law;
         self.first_of = None;
         self.steps.set(nominal, gamma, beta);
-        self.steps.get(nominal, &structure.system, &self.law, |e| structure.explain(e)).map(|_| ())
+        self.steps.get(nominal, &structure.system, &self.law).map(|_| ())
     }
 
     /// From `old` over `h` seconds; `new` is overwritten.
     ///
     /// # Errors
     /// Far too many sub-steps, or a new size cannot be factorised.
-    pub fn run(&mut self, structure: &Structure, old: &State, forces: Forces, h: f64, new: &mut Data) -> Result<(), ModelError> {
+    pub fn run(
+        &mut self,
+        structure: &Structure,
+        old: &State,
+        forces: Forces,
+        h: f64,
+        new: &mut Data,
+    ) -> Result<(), ModelError> {
         let (count, size) = self.steps.divide(h);
         if count > MOST_SUBSTEPS {
             let nominal = self.steps.nominal();
-            return Err(ModelError(format!("a step of {h} s holds more than {MOST_SUBSTEPS} sub-steps of step_size = {nominal} s")));
+            return Err(ModelError(format!(
+                "a step of {h} s holds more than {MOST_SUBSTEPS} sub-steps of step_size = {nominal} s"
+            )));
         }
-        let step = self.steps.get(size, &structure.system, &self.law, |e| structure.explain(e))?;
+        let step = self.steps.get(size, &structure.system, &self.law)?;
         new.force.clone_from(&old.force);
         for i in 1..=count {
             let (history, before) = if i == 1 {

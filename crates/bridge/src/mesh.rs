@@ -105,7 +105,11 @@ impl Mesh {
     pub fn describe(&self, dof: usize) -> String {
         let found = self.dofs.iter().zip(&self.nodes).find_map(|(dofs, node)| {
             let direction = dofs.iter().position(|d| d.is_some_and(|d| d as usize == dof))?;
-            Some(format!("{} of node {}", ["displacement along x", "displacement along z", "rotation"][direction], node.name))
+            Some(format!(
+                "{} of node {}",
+                ["displacement along x", "displacement along z", "rotation"][direction],
+                node.name
+            ))
         });
         found.unwrap_or_else(|| format!("degree of freedom {dof}"))
     }

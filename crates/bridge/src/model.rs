@@ -134,8 +134,10 @@ impl Model for Bridge {
 
     fn load(resources: &Path) -> Result<Self, ModelError> {
         let path = resources.join("bridge.json");
-        let text = std::fs::read_to_string(&path).map_err(|e| ModelError(format!("cannot read {}: {e}", path.display())))?;
-        let spec = serde_json::from_str(&text).map_err(|e| ModelError(format!("{} is damaged: {e}", path.display())))?;
+        let text =
+            std::fs::read_to_string(&path).map_err(|e| ModelError(format!("cannot read {}: {e}", path.display())))?;
+        let spec =
+            serde_json::from_str(&text).map_err(|e| ModelError(format!("{} is damaged: {e}", path.display())))?;
         Self::new(spec)
     }
 
@@ -149,7 +151,8 @@ impl Model for Bridge {
 
     fn build(&mut self, values: &Values, _start: f64) -> Result<(), ModelError> {
         let group = &values.all[self.interface.parameters()];
-        let parameters = Parameters::read(group).ok_or_else(|| ModelError("bridge: six parameters are needed".into()))?;
+        let parameters =
+            Parameters::read(group).ok_or_else(|| ModelError("bridge: six parameters are needed".into()))?;
         if self.parameters == Some(parameters) {
             return Ok(());
         }
@@ -170,7 +173,13 @@ impl Model for Bridge {
         data.motion.numbers_mut().for_each(|x| *x = 0.0);
         self.structure.supports.add_transposed(&data.force, &mut data.motion.u);
         self.structure.system.statics(self.march.law(), &mut data.motion.u);
-        read_out(&self.structure, self.march.law().stiffness, data, Acceleration::State, &mut values.all[self.interface.outputs()]);
+        read_out(
+            &self.structure,
+            self.march.law().stiffness,
+            data,
+            Acceleration::State,
+            &mut values.all[self.interface.outputs()],
+        );
         self.accept(state);
         self.last_step = self.march.steps.nominal();
         Ok(())
@@ -189,7 +198,13 @@ impl Model for Bridge {
         self.march.run(&self.structure, &self.state, Forces { values: &values.all[inputs], rates }, h, data)?;
         let mean = Acceleration::Mean(&self.state.motion, h);
         let acceleration = if values.has_rates { Acceleration::State } else { mean };
-        read_out(&self.structure, self.march.law().stiffness, data, acceleration, &mut values.all[self.interface.outputs()]);
+        read_out(
+            &self.structure,
+            self.march.law().stiffness,
+            data,
+            acceleration,
+            &mut values.all[self.interface.outputs()],
+        );
         self.accept(state);
         self.last_step = h;
         Ok(())
@@ -220,7 +235,13 @@ impl Model for Bridge {
         let forces = Forces { values: seed, rates: has_rates.then_some(&constant[..]) };
         self.march.run(&self.structure, &self.rest, forces, h, data)?;
         let mean = Acceleration::Mean(&self.rest.motion, h);
-        read_out(&self.structure, self.march.law().stiffness, data, if has_rates { Acceleration::State } else { mean }, out);
+        read_out(
+            &self.structure,
+            self.march.law().stiffness,
+            data,
+            if has_rates { Acceleration::State } else { mean },
+            out,
+        );
         self.pool.give(&state);
         Ok(())
     }

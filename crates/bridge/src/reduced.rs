@@ -40,7 +40,8 @@ impl System for Reduced {
         };
         let rates: Vec<f64> = self.omega2.iter().enumerate().map(rate).collect();
         let [a0, a1, ..] = newmark.a;
-        let inverse = rates.iter().zip(&self.omega2).map(|(c, w2)| 1.0 / (law.stiffness * w2 + law.mass * (a0 + a1 * c)));
+        let inverse =
+            rates.iter().zip(&self.omega2).map(|(c, w2)| 1.0 / (law.stiffness * w2 + law.mass * (a0 + a1 * c)));
         Ok(Box::new(ReducedStep { newmark, mass: law.mass, inverse: inverse.collect(), rates }))
     }
 }

@@ -37,9 +37,12 @@ impl Data {
         let expected = 8 * (3 * unknowns + supports);
         if bytes.len() != expected {
             let found = bytes.len();
-            return Err(ModelError(format!("the bridge's state has {expected} bytes, {found} were given: it belongs to another bridge")));
+            return Err(ModelError(format!(
+                "the bridge's state has {expected} bytes, {found} were given: it belongs to another bridge"
+            )));
         }
-        let numbers = bytes.chunks_exact(8).map(|b| f64::from_le_bytes([b[0], b[1], b[2], b[3], b[4], b[5], b[6], b[7]]));
+        let numbers =
+            bytes.chunks_exact(8).map(|b| f64::from_le_bytes([b[0], b[1], b[2], b[3], b[4], b[5], b[6], b[7]]));
         data.motion.numbers_mut().chain(&mut data.force).zip(numbers).for_each(|(x, number)| *x = number);
         Ok(data)
     }

@@ -3,7 +3,6 @@
 use std::sync::Arc;
 
 use ttb_coupling::ModelError;
-use ttb_dynamics::factor::FactorError;
 use ttb_dynamics::newmark::Newmark;
 
 use crate::system::{Law, Step, System};
@@ -49,19 +48,14 @@ impl Steps {
     /// The factorised step of a size from [`Steps::divide`].
     ///
     /// # Errors
-    /// K̂ is not positive definite: passed on with `describe` naming the degree of freedom.
-    pub fn get(
-        &mut self,
-        size: f64,
-        system: &Arc<dyn System>,
-        law: &Law,
-        describe: impl Fn(FactorError) -> ModelError,
-    ) -> Result<&mut dyn Step, ModelError> {
+    /// A size so small that K̂ overflows: K and M themselves have passed before.
+    pub fn get(&mut self, size: f64, system: &Arc<dyn System>, law: &Law) -> Result<&mut dyn Step, ModelError> {
         if let Some(position) = self.known.iter().position(|(known, _)| *known == size) {
             self.known[..=position].rotate_right(1);
         } else {
             let newmark = Newmark::new(self.gamma, self.beta, size);
-            let step = Arc::clone(system).prepare(law, newmark).map_err(describe)?;
+            let step = Arc::clone(system).prepare(law, newmark);
+            let step = step.map_err(|e| ModelError(format!("bridge: a step of {size} s cannot be factorised: {e}")))?;
             self.known.truncate(KEPT - 1);
             self.known.insert(0, (size, step));
         }

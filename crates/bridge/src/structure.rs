@@ -53,13 +53,19 @@ impl Structure {
     /// Anything in the specification that cannot be: the message names it.
     pub fn new(spec: &BridgeSpec) -> Result<Self, ModelError> {
         let mesh = match &spec.structure {
-            StructureSpec::Beams { spans, continuous } => crate::beams::mesh(spans, *continuous)?,
+            StructureSpec::Beams { spans, continuous } => {
+                if let Some(point) = spec.points.iter().find(|p| p.direction == Direction::X) {
+                    return Err(ModelError(format!("bridge: point {}: beams move only along z", point.name)));
+                }
+                crate::beams::mesh(spans, *continuous)?
+            }
             StructureSpec::Frame(frame) => crate::frame::mesh(frame)?,
         };
         let pencil = mesh.assemble()?;
         let statics = pencil.factor(1.0, 0.0).map_err(|e| explain(&mesh, e))?;
         let needed = modes_needed(spec);
-        let modes = if needed == 0 { Modes::default() } else { lowest(&pencil, &statics, needed).map_err(in_bridge)? };
+        let modes =
+            if needed == 0 { Modes::default() } else { lowest(&pencil, &statics, needed).map_err(in_bridge)? };
         let deck = Deck::new(&mesh)?;
         let mut supports = support_rows(&mesh, &deck, &spec.supports)?;
         let (mut monitors, points) = monitor_rows(&mesh, &deck, &spec.points)?;
@@ -105,12 +111,16 @@ impl Structure {
         let omega: Vec<f64> = self.omega2.iter().map(|w2| (w2 * stiffness / mass).sqrt()).collect();
         let mode = |number: usize| {
             let omega = number.checked_sub(1).and_then(|j| omega.get(j)).copied();
-            omega.ok_or_else(|| ModelError(format!("bridge: Rayleigh damping at mode {number}; modes are counted from 1")))
+            omega.ok_or_else(|| {
+                ModelError(format!("bridge: Rayleigh damping at mode {number}; modes are counted from 1"))
+            })
         };
         let (mut alpha, mut beta, mut rates) = (0.0, 0.0, Vec::new());
         match &self.damping {
             Damping::None if ratio != 0.0 => {
-                return Err(ModelError(format!("damping_ratio is {ratio}; on a bridge of damping type none it must be 0")));
+                return Err(ModelError(format!(
+                    "damping_ratio is {ratio}; on a bridge of damping type none it must be 0"
+                )));
             }
             Damping::None => {}
             Damping::Rayleigh { at, .. } => {
@@ -124,14 +134,11 @@ impl Structure {
                 }
                 (alpha, beta) = rayleigh(ratio, pair);
             }
-            Damping::Modal { modes, .. } => rates = omega.iter().take(*modes).map(|omega| 2.0 * ratio * omega).collect(),
+            Damping::Modal { modes, .. } => {
+                rates = omega.iter().take(*modes).map(|omega| 2.0 * ratio * omega).collect()
+            }
         }
         Ok(Law { stiffness, mass, alpha, beta, rates })
-    }
-
-    /// A factorisation's complaint with the degree of freedom in words.
-    pub fn explain(&self, error: FactorError) -> ModelError {
-        explain(&self.mesh, error)
     }
 
     /// The lowest natural frequencies, Hz, without factors.

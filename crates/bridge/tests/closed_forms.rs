@@ -55,6 +55,19 @@ fn simply_supported_spans_vibrate_each_for_itself() {
 }
 
 #[test]
+fn known_bridges_have_their_known_frequencies() {
+    // Case R1 (physics.md 7.5), and the bundled cable-stayed bridge: its file says what another program found.
+    let r1 = Bridge::new(beams(vec![span(32.5, 3.45e10 * 12.744, 29_720.0, 50)], 50, 1e-3)).unwrap();
+    near("R1", r1.natural_frequencies(1).unwrap()[0], 5.7199, 1e-5);
+    let frame = ttb_scenario::bundled::frame("cable-stayed-224").unwrap();
+    let cable_stayed = Bridge::new(bridge(StructureSpec::Frame(frame), 224.0, 100, 1e-3)).unwrap();
+    for (f, expected) in cable_stayed.natural_frequencies(4).unwrap().into_iter().zip([0.80, 1.32, 1.90, 2.38]) {
+        near("cable-stayed", f, expected, 0.005);
+    }
+    near("mass", cable_stayed.mass(), 11.8e6 + 1.97e6, 0.002);
+}
+
+#[test]
 fn a_continuous_beam_shares_its_rotation() {
     let spans = vec![span(20.0, EI, M, 20); 2];
     let two = ttb_bridge::beams::mesh(&spans, true).unwrap();
@@ -115,7 +128,8 @@ fn a_cantilever_in_any_direction() {
 
 #[test]
 fn a_bar_swings_along_its_axis() {
-    let bar = frame(&[("a", 0.0, 0.0, CLAMPED), ("b", 30.0, 0.0, &[Z, Rotation])], &[("a", "b", "girder", Beam, 40, true)]);
+    let bar =
+        frame(&[("a", 0.0, 0.0, CLAMPED), ("b", 30.0, 0.0, &[Z, Rotation])], &[("a", "b", "girder", Beam, 40, true)]);
     let mut bar = bar;
     bar.sections[0].inertia = 1e4; // bending far above
     let c = f64::sqrt(EA / M);
@@ -192,9 +206,14 @@ fn a_frame_is_seen_at_its_nodes_and_carries_track_backwards_too() {
     // A portal whose deck runs from right to left; the same numbers as from left to right.
     let nodes: [(&str, f64, f64, &[Fixity]); 4] =
         [("fl", 0.0, 8.0, CLAMPED), ("fr", 20.0, 8.0, CLAMPED), ("l", 0.0, 0.0, &[]), ("r", 20.0, 0.0, &[])];
-    let there = [("fl", "l", "girder", Beam, 4, false), ("l", "r", "shear", Beam, 10, true), ("fr", "r", "girder", Beam, 4, false)];
+    let there = [
+        ("fl", "l", "girder", Beam, 4, false),
+        ("l", "r", "shear", Beam, 10, true),
+        ("fr", "r", "girder", Beam, 4, false),
+    ];
     let back = [there[0], ("r", "l", "shear", Beam, 10, true), there[2]];
-    let at = |name: &str, node: &str, direction| Point { name: name.into(), x: None, node: Some(node.into()), direction };
+    let at =
+        |name: &str, node: &str, direction| Point { name: name.into(), x: None, node: Some(node.into()), direction };
     let answers = [there, back].map(|members| {
         let mut spec = bridge(StructureSpec::Frame(frame(&nodes, &members)), 20.0, 7, 1e-3);
         spec.points = vec![at("sway", "r", Direction::X), at("foot", "fl", Direction::Z), point("deck", 7.7)];

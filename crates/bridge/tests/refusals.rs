@@ -8,7 +8,7 @@ use ttb_coupling::{Instance, Model};
 use ttb_scenario::spec::{BridgeSpec, StructureSpec};
 use ttb_scenario::types::Fixity::{X, Z};
 use ttb_scenario::types::MemberKind::{Beam, Cable, Truss};
-use ttb_scenario::types::{Damping, Frame, Point, RayleighAt};
+use ttb_scenario::types::{Damping, Direction, Frame, Point, RayleighAt};
 
 fn refused(spec: BridgeSpec, words: &[&str]) {
     let Err(error) = Bridge::new(spec) else { panic!("{words:?} were not refused") };
@@ -36,6 +36,8 @@ fn spans() {
     refused(with(|s| s.mass = f64::NAN), &["mass", "span 2", "NaN"]);
     refused(with(|s| s.shear_stiffness = Some(0.0)), &["shear_stiffness", "span 2"]);
     refused(with(|s| s.elements = 0), &["span 2", "elements"]);
+    let none = StructureSpec::Beams { spans: Vec::new(), continuous: false };
+    refused(bridge(none, 20.0, 4, 1e-3), &["no spans"]);
 }
 
 #[test]
@@ -46,6 +48,8 @@ fn supports_and_points() {
     refused(BridgeSpec { points: vec![point("far", -1.0)], ..simple() }, &["point far", "off the deck"]);
     let nothing = Point { name: "p".into(), x: None, node: None, direction: Default::default() };
     refused(BridgeSpec { points: vec![nothing.clone()], ..simple() }, &["point p", "x or node"]);
+    let sideways = Point { direction: Direction::X, ..point("side", 5.0) };
+    refused(BridgeSpec { points: vec![sideways], ..simple() }, &["point side", "only along z"]);
     let lost = Point { node: Some("tower".into()), ..nothing };
     refused(BridgeSpec { points: vec![lost], ..simple() }, &["point p", "no node named tower"]);
 }
@@ -75,8 +79,11 @@ fn frames() {
     };
     refused(with(&post), &["deck between nodes", "too steep"]);
     let gap = |f: &mut Frame| {
-        f.nodes.extend([(25.0, "c"), (30.0, "d")].map(|(x, name)| {
-            ttb_scenario::types::Node { name: name.into(), x, z: 0.0, fixed: vec![X, Z] }
+        f.nodes.extend([(25.0, "c"), (30.0, "d")].map(|(x, name)| ttb_scenario::types::Node {
+            name: name.into(),
+            x,
+            z: 0.0,
+            fixed: vec![X, Z],
         }));
         f.members.push(ttb_scenario::types::Member { nodes: ["c".into(), "d".into()], ..f.members[0].clone() });
     };
@@ -134,6 +141,10 @@ fn absurd_steps() {
     let mut bridge = common::stepping(&simple());
     let error = bridge.step(0.0, 1e9).unwrap_err();
     assert!(error.0.contains("sub-steps"), "{error}");
+    let mut short = Instance::new(Bridge::new(simple()).unwrap());
+    set(&mut short, "step_size", 1e-170);
+    let error = short.enter_initialization(0.0).unwrap_err();
+    assert!(error.0.contains("a step of"), "{error}");
     bridge.step(0.0, 1e-3).unwrap();
 }
 
@@ -160,7 +171,8 @@ fn the_interface_list_is_the_contract() {
     expected.extend((1..=5).map(|i| format!("support[{i}].displacement")));
     expected.extend((1..=5).map(|i| format!("support[{i}].velocity")));
     expected.extend(["displacement", "velocity", "acceleration", "moment"].map(|what| format!("point[mid].{what}")));
-    expected.extend(["damping_ratio", "stiffness_factor", "mass_factor", "step_size", "gamma", "beta"].map(String::from));
+    expected
+        .extend(["damping_ratio", "stiffness_factor", "mass_factor", "step_size", "gamma", "beta"].map(String::from));
     assert_eq!(names, expected);
     assert!(bridge.interface().variables().iter().all(|v| !v.feed_through && !v.name.contains(',')));
 }

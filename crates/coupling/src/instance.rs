@@ -26,7 +26,13 @@ pub struct Snapshot<M: Model> {
 
 impl<M: Model> Clone for Snapshot<M> {
     fn clone(&self) -> Self {
-        Self { values: self.values.clone(), phase: self.phase, start: self.start, stale: self.stale, state: self.state.clone() }
+        Self {
+            values: self.values.clone(),
+            phase: self.phase,
+            start: self.start,
+            stale: self.stale,
+            state: self.state.clone(),
+        }
     }
 }
 
@@ -111,7 +117,9 @@ impl<M: Model> Instance<M> {
         }
         for (&reference, &rate) in references.iter().zip(rates) {
             let Some(slot) = self.values.rates.get_mut(reference as usize) else {
-                return Err(ModelError(format!("value reference {reference} is no input: it has no derivative to set")));
+                return Err(ModelError(format!(
+                    "value reference {reference} is no input: it has no derivative to set"
+                )));
             };
             if !rate.is_finite() {
                 return Err(ModelError(format!("the derivative of input {reference} was set to {rate}")));
@@ -272,7 +280,8 @@ impl<M: Model> Instance<M> {
         }
         let (flags, rest) = bytes[MAGIC.len()..].split_at(5);
         let (real, state) = rest.split_at(8 * numbers);
-        let mut real = real.chunks_exact(8).map(|b| f64::from_le_bytes([b[0], b[1], b[2], b[3], b[4], b[5], b[6], b[7]]));
+        let mut real =
+            real.chunks_exact(8).map(|b| f64::from_le_bytes([b[0], b[1], b[2], b[3], b[4], b[5], b[6], b[7]]));
         let mut next = || real.next().unwrap_or(f64::NAN);
         let start = next();
         values.all.iter_mut().for_each(|x| *x = next());
@@ -304,7 +313,13 @@ impl<M: Model> Instance<M> {
     ///
     /// # Errors
     /// A reference of the wrong kind, or a model without derivatives.
-    pub fn directional_derivative(&mut self, unknown: &[u32], known: &[u32], seed: &[f64], out: &mut [f64]) -> Result<(), ModelError> {
+    pub fn directional_derivative(
+        &mut self,
+        unknown: &[u32],
+        known: &[u32],
+        seed: &[f64],
+        out: &mut [f64],
+    ) -> Result<(), ModelError> {
         let (inputs, outputs) = (self.model.interface().inputs(), self.model.interface().outputs());
         if let Some(bad) = known.iter().find(|r| !inputs.contains(&(**r as usize))) {
             return Err(ModelError(format!("value reference {bad} is no input")));

@@ -171,7 +171,12 @@ impl Coupling {
     ///
     /// # Errors
     /// A subsystem fails, or the static iteration does not converge under the policy `Stop` or `Halve`.
-    pub fn initialise(&mut self, train_track: &mut dyn Subsystem, bridge: &mut dyn Subsystem, t: f64) -> Result<StepInfo, IterationError> {
+    pub fn initialise(
+        &mut self,
+        train_track: &mut dyn Subsystem,
+        bridge: &mut dyn Subsystem,
+        t: f64,
+    ) -> Result<StepInfo, IterationError> {
         let info = self.iterate(t, self.settings.max_iterations.max(STATIC_TRIALS), |this| {
             bridge.set_inputs(&this.lambda, None)?;
             bridge.get_outputs(&mut this.motion)?;
@@ -193,7 +198,13 @@ impl Coupling {
     ///
     /// # Errors
     /// A subsystem fails, the residual is not finite, or the step does not converge and the policy says stop.
-    pub fn step(&mut self, train_track: &mut dyn Subsystem, bridge: &mut dyn Subsystem, t: f64, h: f64) -> Result<StepInfo, IterationError> {
+    pub fn step(
+        &mut self,
+        train_track: &mut dyn Subsystem,
+        bridge: &mut dyn Subsystem,
+        t: f64,
+        h: f64,
+    ) -> Result<StepInfo, IterationError> {
         self.step_or_halve(train_track, bridge, t, h, 0)
     }
 
@@ -227,7 +238,13 @@ impl Coupling {
         })
     }
 
-    fn try_step(&mut self, train_track: &mut dyn Subsystem, bridge: &mut dyn Subsystem, t: f64, h: f64) -> Result<StepInfo, IterationError> {
+    fn try_step(
+        &mut self,
+        train_track: &mut dyn Subsystem,
+        bridge: &mut dyn Subsystem,
+        t: f64,
+        h: f64,
+    ) -> Result<StepInfo, IterationError> {
         let interpolate_forces = bridge.can_interpolate() && !self.settings.hold_forces;
         let interpolate_motion = train_track.can_interpolate();
         let implicit = self.settings.max_iterations > 1;
@@ -253,7 +270,12 @@ impl Coupling {
     }
 
     /// λ = G(λ) by trials; `trial` computes the answer to `self.lambda`.
-    fn iterate(&mut self, t: f64, limit: usize, mut trial: impl FnMut(&mut Self) -> Result<(), Failure>) -> Result<StepInfo, IterationError> {
+    fn iterate(
+        &mut self,
+        t: f64,
+        limit: usize,
+        mut trial: impl FnMut(&mut Self) -> Result<(), Failure>,
+    ) -> Result<StepInfo, IterationError> {
         self.acceleration.begin_step();
         let (mut k, mut before, mut contraction) = (0, 0.0, 0.0);
         let (outcome, residual) = loop {
@@ -287,7 +309,14 @@ impl Coupling {
 }
 
 /// Sends a straight line from `from` to `to` over a step of `h`: as value and rate, or as the held mean.
-fn send(to_whom: &mut dyn Subsystem, from: &[f64], to: &[f64], h: f64, interpolate: bool, buffer: &mut [f64]) -> Result<(), Failure> {
+fn send(
+    to_whom: &mut dyn Subsystem,
+    from: &[f64],
+    to: &[f64],
+    h: f64,
+    interpolate: bool,
+    buffer: &mut [f64],
+) -> Result<(), Failure> {
     for ((b, from), to) in buffer.iter_mut().zip(from).zip(to) {
         *b = if interpolate { (to - from) / h } else { 0.5 * (from + to) };
     }

@@ -109,7 +109,7 @@ impl Band {
     }
 }
 
-/// L and 1/D of a [`Band`]; L by rows for the forward, by columns for the backward substitution.
+/// L and 1/D of a [`Band`]; L by columns for the forward, by rows for the backward substitution.
 #[derive(Clone, Debug)]
 pub struct BandFactor {
     n: usize,
@@ -143,32 +143,27 @@ impl BandFactor {
         }
     }
 
-    /// The last B unknowns stay in registers: a row waits only for the product with the newest one.
+    /// What a found unknown takes off the next B right-hand sides is added up in registers, so that a row waits for one
+    /// product and one sum only: twice as fast as dot products with the last B unknowns.
     fn solve_fixed<const B: usize>(&self, x: &mut [f64], from: usize, to: usize) {
         let (rows, _) = self.rows.as_chunks::<B>();
         let (columns, _) = self.columns.as_chunks::<B>();
-        let mut last = [0.0; B];
-        for ((x, row), inverse) in x[from..to].iter_mut().zip(&rows[from..to]).zip(&self.inverse[from..to]) {
-            let mut y = *x;
-            for k in 0..B {
-                y -= row[k] * last[k];
-            }
+        let mut owed = [0.0; B];
+        for ((x, column), inverse) in x[from..to].iter_mut().zip(&columns[from..to]).zip(&self.inverse[from..to]) {
+            let y = *x - owed[0];
             for k in 1..B {
-                last[k - 1] = last[k];
+                owed[k - 1] = owed[k] + column[k - 1] * y;
             }
-            last[B - 1] = y;
+            owed[B - 1] = column[B - 1] * y;
             *x = y * inverse;
         }
-        let mut next = [0.0; B];
-        for (x, column) in x[from..to].iter_mut().zip(&columns[from..to]).rev() {
-            let mut y = *x;
-            for k in (0..B).rev() {
-                y -= column[k] * next[k];
+        let mut owed = [0.0; B];
+        for (x, row) in x[from..to].iter_mut().zip(&rows[from..to]).rev() {
+            let y = *x - owed[0];
+            for k in 1..B {
+                owed[k - 1] = owed[k] + row[B - k] * y;
             }
-            for k in (1..B).rev() {
-                next[k] = next[k - 1];
-            }
-            next[0] = y;
+            owed[B - 1] = row[0] * y;
             *x = y;
         }
     }

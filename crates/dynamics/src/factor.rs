@@ -7,12 +7,11 @@
 use std::sync::Arc;
 
 use faer::Par;
-use faer::linalg::cholesky::ldlt::factor::{LdltError, LdltRegularization};
 use faer::dyn_stack::{MemBuffer, MemStack};
+use faer::linalg::cholesky::ldlt::factor::{LdltError, LdltRegularization};
 use faer::sparse::linalg::SupernodalThreshold;
 use faer::sparse::linalg::cholesky::{
-    CholeskySymbolicParams, SymbolicCholesky, SymbolicCholeskyRaw, SymmetricOrdering,
-    factorize_symbolic_cholesky,
+    CholeskySymbolicParams, SymbolicCholesky, SymbolicCholeskyRaw, SymmetricOrdering, factorize_symbolic_cholesky,
 };
 use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
 
@@ -97,12 +96,21 @@ impl Factor {
         let mut memory = MemBuffer::new(cholesky.factorize_numeric_ldlt_scratch::<f64>(par, Default::default()));
         let none = LdltRegularization::default();
         cholesky
-            .factorize_numeric_ldlt(&mut values, a, faer::Side::Lower, none, par, MemStack::new(&mut memory), Default::default())
+            .factorize_numeric_ldlt(
+                &mut values,
+                a,
+                faer::Side::Lower,
+                none,
+                par,
+                MemStack::new(&mut memory),
+                Default::default(),
+            )
             .map_err(|LdltError::ZeroPivot { index }| {
                 let row = index.saturating_sub(1); // faer counts pivots from 1
                 FactorError::NotPositive { dof: symbolic.order.get(row).map_or(row, |dof| *dof as usize) }
             })?;
-        let (mut l, mut inverse_d) = (Vec::with_capacity(symbolic.rows.len()), Vec::with_capacity(symbolic.order.len()));
+        let (mut l, mut inverse_d) =
+            (Vec::with_capacity(symbolic.rows.len()), Vec::with_capacity(symbolic.order.len()));
         let mut values = values.into_iter();
         for column in symbolic.starts.windows(2) {
             inverse_d.extend(values.next().map(|d| 1.0 / d));

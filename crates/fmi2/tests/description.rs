@@ -35,7 +35,8 @@ fn unknown_elements_attributes_namespaces_and_annotations_are_passed_over() {
     assert_eq!(d.co_simulation.model_identifier, "B");
     assert_eq!((d.start_time, d.stop_time, d.step_size), (None, Some(2.5), None));
     assert_eq!((d.units["mm"].factor, d.units["mm"].powers[1]), (1e-3, 1));
-    let found: Vec<_> = d.variables.iter().map(|v| (v.name.as_str(), v.value_reference, v.kind, v.start.as_deref())).collect();
+    let found: Vec<_> =
+        d.variables.iter().map(|v| (v.name.as_str(), v.value_reference, v.kind, v.start.as_deref())).collect();
     let expected = [
         ("a", 7, VariableType::Real, Some("1")),
         ("b", 7, VariableType::Enumeration, Some("2")),
@@ -48,7 +49,9 @@ fn unknown_elements_attributes_namespaces_and_annotations_are_passed_over() {
 
 #[test]
 fn latin1_is_read() {
-    let xml = document(&format!("{SLAVE}<ModelVariables><ScalarVariable name=\"Br\u{fc}cke\" valueReference=\"0\"><Real/></ScalarVariable></ModelVariables>"));
+    let xml = document(&format!(
+        "{SLAVE}<ModelVariables><ScalarVariable name=\"Br\u{fc}cke\" valueReference=\"0\"><Real/></ScalarVariable></ModelVariables>"
+    ));
     let xml = format!("<?xml version=\"1.0\" encoding=\"ISO-8859-1\"?>{xml}");
     let bytes: Vec<u8> = xml.chars().map(|c| c as u8).collect();
     assert!(read_description(&bytes).unwrap().variable("Br\u{fc}cke").is_some());
@@ -68,9 +71,13 @@ fn what_cannot_be_used_is_refused_with_its_reason() {
     assert!(reason(&document("<ModelExchange modelIdentifier='m'/>")).contains("model exchange only"));
     assert!(reason(&document("<CoSimulation/>")).contains("CoSimulation has no usable attribute modelIdentifier"));
     assert!(reason(&document("<CoSimulation modelIdentifier='../evil'/>")).contains("modelIdentifier"));
-    let variable = |attributes: &str| document(&format!("{SLAVE}<ModelVariables><ScalarVariable {attributes}/></ModelVariables>"));
+    let variable =
+        |attributes: &str| document(&format!("{SLAVE}<ModelVariables><ScalarVariable {attributes}/></ModelVariables>"));
     assert!(reason(&variable("valueReference='1'")).contains("attribute name"));
-    assert_eq!(reason(&variable("name='a' valueReference='-1'")), "the ScalarVariable a has no usable attribute valueReference");
+    assert_eq!(
+        reason(&variable("name='a' valueReference='-1'")),
+        "the ScalarVariable a has no usable attribute valueReference"
+    );
 }
 
 #[test]
@@ -78,7 +85,8 @@ fn bombs_do_not_go_off() {
     let deep = document(&format!("{SLAVE}{}{}", "<a>".repeat(1000), "</a>".repeat(1000)));
     assert!(matches!(read_description(deep.as_bytes()), Err(DescriptionError::TooDeep)));
     // Ten levels of ten: 10^10 characters, if anything expanded them.
-    let laughs: String = (1..10).map(|i| format!("<!ENTITY l{i} \"{}\">", format!("&l{};", i - 1).repeat(10))).collect();
+    let laughs: String =
+        (1..10).map(|i| format!("<!ENTITY l{i} \"{}\">", format!("&l{};", i - 1).repeat(10))).collect();
     let xml = format!("<!DOCTYPE x [<!ENTITY l0 'ha'>{laughs}]>{}", document(SLAVE).replace("\"m\"", "\"&l9;\""));
     assert_eq!(read_description(xml.as_bytes()).unwrap().model_name, "&l9;");
 }

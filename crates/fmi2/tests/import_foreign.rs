@@ -60,7 +60,10 @@ fn the_first_answer_of_every_failure_names_instance_call_time_and_log() {
         assert_eq!(error, format!("{name}: fmi2DoStep from t = 0.5 s by 0.25 s answered {status}{log}"));
     }
     let error = fmu.instantiate("none", false).err().unwrap().to_string();
-    assert!(error.starts_with("none: fmi2Instantiate gave no instance; it logged: no licence for g in file:///"), "{error}");
+    assert!(
+        error.starts_with("none: fmi2Instantiate gave no instance; it logged: no licence for g in file:///"),
+        "{error}"
+    );
 }
 
 #[test]
@@ -169,7 +172,10 @@ fn what_an_fmu_cannot_do_is_an_error_not_a_crash() {
 fn all_coupling_mistakes_come_in_one_message() {
     let made = foreign(CAPABLE, false);
     let instance = Fmu::open(&made.path).unwrap().instantiate("f", false).unwrap();
-    let error = FmuSubsystem::new(instance, &["in[1]", "in[9]", "out[1]"], &["in[2]", "out[2]", "x"]).err().unwrap().to_string();
+    let error = FmuSubsystem::new(instance, &["in[1]", "in[9]", "out[1]"], &["in[2]", "out[2]", "x"])
+        .err()
+        .unwrap()
+        .to_string();
     assert_eq!(
         error,
         "f: it has no variable in[9]; out[1] is no input but a output; in[2] is no output but a input; it has no variable x"

@@ -23,7 +23,13 @@ fn packed(folder: &Path) -> (Fmu, Oscillator) {
     let about = About::of(&model, "Oscillator", "Oscillator", "One mass on a spring.");
     let library = example_library();
     let licenses = [("LICENSE.txt", "MIT OR Apache-2.0")];
-    let contents = Contents { interface: model.interface(), about: &about, binary: &library, resources: Some(&resources), licenses: &licenses };
+    let contents = Contents {
+        interface: model.interface(),
+        about: &about,
+        binary: &library,
+        resources: Some(&resources),
+        licenses: &licenses,
+    };
     let path = folder.join("Oscillator.fmu");
     pack(&contents, &path).unwrap();
     (Fmu::open(&path).unwrap(), model)
@@ -80,7 +86,12 @@ fn the_description_read_back_is_the_interface_that_was_written() {
     assert_eq!(d.guid, ttb_model_description::guid("Oscillator", model.interface()));
     assert_eq!((d.start_time, d.stop_time, d.step_size), (Some(0.0), Some(1.0), Some(0.01)));
     let c = &d.co_simulation;
-    assert!(c.can_get_and_set_state && c.can_serialize_state && c.can_interpolate_inputs && c.provides_directional_derivative);
+    assert!(
+        c.can_get_and_set_state
+            && c.can_serialize_state
+            && c.can_interpolate_inputs
+            && c.provides_directional_derivative
+    );
     assert!(c.can_handle_variable_communication_step_size && c.can_not_use_memory_management_functions);
     assert!(!c.needs_execution_tool && !c.can_be_instantiated_only_once_per_process && !c.can_run_asynchronously);
     let names: Vec<_> = model.interface().variables().iter().map(|v| v.name.as_str()).collect();
@@ -102,7 +113,10 @@ fn numbers_of_every_type_are_set_and_read_by_name() {
     }
     assert!(s.set_number("seed", 1.5).unwrap_err().to_string().contains("seed is an Integer and cannot be set to 1.5"));
     let error = s.get_string(vr::SEED).unwrap_err().to_string();
-    assert!(error.contains("fmi2GetString answered fmi2Error; it logged: fmi2GetString: this FMU has no String variables"), "{error}");
+    assert!(
+        error.contains("fmi2GetString answered fmi2Error; it logged: fmi2GetString: this FMU has no String variables"),
+        "{error}"
+    );
 }
 
 #[test]
@@ -181,6 +195,9 @@ fn all_44_functions_are_exported_and_only_harmless_libraries_needed() {
     let Ok(readelf) = std::process::Command::new("readelf").arg("-d").arg(example_library()).output() else { return };
     let dynamic = String::from_utf8_lossy(&readelf.stdout).into_owned();
     for needed in dynamic.lines().filter(|line| line.contains("(NEEDED)")) {
-        assert!(["libc.so", "libm.so", "libgcc_s.so", "ld-linux"].iter().any(|known| needed.contains(known)), "{needed}");
+        assert!(
+            ["libc.so", "libm.so", "libgcc_s.so", "ld-linux"].iter().any(|known| needed.contains(known)),
+            "{needed}"
+        );
     }
 }

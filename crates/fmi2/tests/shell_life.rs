@@ -37,7 +37,8 @@ fn every_form_of_a_resource_location_works() {
     std::fs::create_dir(&inner).unwrap();
     std::fs::copy(resources.path().join("mass.txt"), inner.join("mass.txt")).unwrap();
     let guid = guid(&inner);
-    let (plain, encoded) = (inner.display().to_string(), inner.display().to_string().replace(' ', "%20").replace("b%", "b%25"));
+    let (plain, encoded) =
+        (inner.display().to_string(), inner.display().to_string().replace(' ', "%20").replace("b%", "b%25"));
     for form in [
         format!("file://{encoded}"),
         format!("file:{encoded}"),

@@ -90,7 +90,8 @@ impl Car {
     pub fn frequencies_on_rigid_rail(&self) -> [f64; FIRST_WHEEL] {
         // Kφ = ω²Mφ of the upper 6 × 6 block, made symmetric with M^{-1/2}.
         let k = self.stiffness.fixed_view::<FIRST_WHEEL, FIRST_WHEEL>(0, 0);
-        let scaled = SMatrix::<f64, FIRST_WHEEL, FIRST_WHEEL>::from_fn(|i, j| k[(i, j)] / (self.mass[i] * self.mass[j]).sqrt());
+        let scaled =
+            SMatrix::<f64, FIRST_WHEEL, FIRST_WHEEL>::from_fn(|i, j| k[(i, j)] / (self.mass[i] * self.mass[j]).sqrt());
         let mut hertz: [f64; FIRST_WHEEL] = scaled.symmetric_eigenvalues().into();
         hertz.iter_mut().for_each(|x| *x = x.max(0.0).sqrt() / std::f64::consts::TAU);
         hertz.sort_by(f64::total_cmp);

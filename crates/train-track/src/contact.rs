@@ -90,7 +90,15 @@ impl Contacts {
     pub fn new(laws: Vec<Law>) -> Self {
         let n = laws.len();
         let zeros = || vec![0.0; n];
-        Self { laws, root: zeros(), g: zeros(), y: zeros(), trial: zeros(), matrix: vec![0.0; n * n], envelope: vec![(0, n); n] }
+        Self {
+            laws,
+            root: zeros(),
+            g: zeros(),
+            y: zeros(),
+            trial: zeros(),
+            matrix: vec![0.0; n * n],
+            envelope: vec![(0, n); n],
+        }
     }
 
     /// The laws.
@@ -102,7 +110,13 @@ impl Contacts {
     ///
     /// # Errors
     /// The number of iterations when Newton's method does not converge or meets a number that is not finite.
-    pub fn solve(&mut self, compliance: &[f64], delta_free: &[f64], delta: &mut [f64], forces: &mut [f64]) -> Result<usize, usize> {
+    pub fn solve(
+        &mut self,
+        compliance: &[f64],
+        delta_free: &[f64],
+        delta: &mut [f64],
+        forces: &mut [f64],
+    ) -> Result<usize, usize> {
         let n = self.laws.len();
         self.find_envelope(compliance);
         let mut norm = self.residual(compliance, delta_free, delta, forces);
@@ -225,7 +239,8 @@ mod tests {
 
     #[test]
     fn the_linear_law_touches_the_nonlinear_one_at_the_static_load() {
-        let (hertz, linear) = (Law::new(&contact(ContactLaw::Hertz, 2), 1.4e5), Law::new(&contact(ContactLaw::Linear, 2), 1.4e5));
+        let (hertz, linear) =
+            (Law::new(&contact(ContactLaw::Hertz, 2), 1.4e5), Law::new(&contact(ContactLaw::Linear, 2), 1.4e5));
         let (a, b) = (hertz.force(hertz.static_approach()), linear.force(linear.static_approach()));
         assert!((a.0 - b.0).abs() < 1e-6 && (a.1 / b.1 - 1.0).abs() < 1e-12);
         assert_eq!(linear.force(-1e-3), (0.0, 0.0));

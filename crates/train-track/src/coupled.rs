@@ -119,7 +119,14 @@ pub struct TrainTrackSystem {
 
 impl TrainTrackSystem {
     /// Joins the parts and makes the workspace.
-    pub fn new(track: Track, cars: Vec<Car>, contacts: Contacts, front_wheel: f64, running: Running, irregularity: Irregularity) -> Self {
+    pub fn new(
+        track: Track,
+        cars: Vec<Car>,
+        contacts: Contacts,
+        front_wheel: f64,
+        running: Running,
+        irregularity: Irregularity,
+    ) -> Self {
         let (n, axles, supports) = (track.order(), cars.len() * AXLES, track.bridge_supports());
         let axle_offsets = axle_offsets(&cars);
         Self {
@@ -173,7 +180,10 @@ impl TrainTrackSystem {
             let x = self.axle_position(axle, t);
             self.points[axle] = self.track.locate(x).ok_or_else(|| {
                 let (from, to) = self.track.extent();
-                format!("wheel {} leaves the rail at t = {t} s: x = {x} m, the rail lies from {from} m to {to} m", axle + 1)
+                format!(
+                    "wheel {} leaves the rail at t = {t} s: x = {x} m, the rail lies from {from} m to {to} m",
+                    axle + 1
+                )
             })?;
             self.roughness[axle] = self.irregularity.at(x);
         }
@@ -255,7 +265,14 @@ impl TrainTrackSystem {
     ///
     /// # Errors
     /// A wheel beyond the rail, or contacts that do not converge; `new` is then undefined.
-    pub fn step(&mut self, matrices: &StepMatrices, old: &Arc<State>, new: &mut State, deck: &[f64], t: f64) -> Result<(), String> {
+    pub fn step(
+        &mut self,
+        matrices: &StepMatrices,
+        old: &Arc<State>,
+        new: &mut State,
+        deck: &[f64],
+        t: f64,
+    ) -> Result<(), String> {
         self.place(matrices, t)?;
         let h = matrices.newmark.h.to_bits();
         if !self.history_for.as_ref().is_some_and(|(state, size)| Arc::ptr_eq(state, old) && *size == h) {
@@ -277,9 +294,11 @@ impl TrainTrackSystem {
         self.free_approach(&under_wheels);
         self.under_wheels = under_wheels;
         new.delta.copy_from_slice(&old.delta);
-        self.contacts.solve(&self.compliance, &self.delta_free, &mut new.delta, &mut new.forces).map_err(|iterations| {
-            format!("the wheel–rail contacts did not converge in {iterations} iterations in the step to t = {t} s")
-        })?;
+        self.contacts.solve(&self.compliance, &self.delta_free, &mut new.delta, &mut new.forces).map_err(
+            |iterations| {
+                format!("the wheel–rail contacts did not converge in {iterations} iterations in the step to t = {t} s")
+            },
+        )?;
         // 3: rail and cars under the contact forces.
         let u = &mut new.track.u;
         u.copy_from_slice(&self.history);

@@ -59,7 +59,12 @@ impl TrainTrack {
     /// # Errors
     /// Never for a checked specification; a message otherwise.
     pub fn new(spec: TrainTrackSpec) -> Result<Self, ModelError> {
-        if spec.cars.is_empty() || spec.speed.is_empty() || spec.on_bridge.is_empty() || spec.bays == 0 || spec.elements_per_bay == 0 {
+        if spec.cars.is_empty()
+            || spec.speed.is_empty()
+            || spec.on_bridge.is_empty()
+            || spec.bays == 0
+            || spec.elements_per_bay == 0
+        {
             return Err(error("the train–track data lack cars, speed, track bays or supports on the bridge"));
         }
         if spec.on_bridge.last().is_some_and(|last| *last > spec.bays) {
@@ -101,7 +106,8 @@ impl Model for TrainTrack {
     fn load(resources: &Path) -> Result<Self, ModelError> {
         let path = resources.join(RESOURCE);
         let text = std::fs::read_to_string(&path).map_err(|e| error(format!("resource {}: {e}", path.display())))?;
-        let spec = serde_json::from_str(&text).map_err(|e| error(format!("resource {} is damaged: {e}", path.display())))?;
+        let spec =
+            serde_json::from_str(&text).map_err(|e| error(format!("resource {} is damaged: {e}", path.display())))?;
         Self::new(spec)
     }
 
@@ -128,8 +134,10 @@ impl Model for TrainTrack {
         }
         let running = Running::new(&spec.speed, factor);
         let newmark = Newmark::new(get(Parameter::Gamma), get(Parameter::Beta), get(Parameter::StepSize));
-        let factors =
-            FastenerFactors { stiffness: get(Parameter::FastenerStiffnessFactor), damping: get(Parameter::FastenerDampingFactor) };
+        let factors = FastenerFactors {
+            stiffness: get(Parameter::FastenerStiffnessFactor),
+            damping: get(Parameter::FastenerDampingFactor),
+        };
         let track = Track::new(&spec, factors);
         let cars: Vec<Car> = spec.cars.iter().map(Car::new).collect();
         let laws = cars.iter().flat_map(|c| [Law::new(&spec.contact, c.axle_load); AXLES]).collect();
@@ -146,8 +154,18 @@ impl Model for TrainTrack {
         let state = Arc::new(State::rest(n, system.cars.len(), supports));
         let input_meaning = get(Parameter::InputMeaning);
         let (deck, mean) = (vec![0.0; 2 * supports], vec![0.0; supports]);
-        self.built =
-            Some(Built { system, statics, steps, start, pre_roll, input_meaning, state, pool: Pool::default(), deck, mean });
+        self.built = Some(Built {
+            system,
+            statics,
+            steps,
+            start,
+            pre_roll,
+            input_meaning,
+            state,
+            pool: Pool::default(),
+            deck,
+            mean,
+        });
         Ok(())
     }
 
@@ -201,7 +219,8 @@ impl Model for TrainTrack {
         if state.numbers().count() * 8 != bytes.len() {
             return Err(error("the serialized FMU state belongs to another train or track"));
         }
-        let numbers = bytes.chunks_exact(8).map(|b| f64::from_le_bytes([b[0], b[1], b[2], b[3], b[4], b[5], b[6], b[7]]));
+        let numbers =
+            bytes.chunks_exact(8).map(|b| f64::from_le_bytes([b[0], b[1], b[2], b[3], b[4], b[5], b[6], b[7]]));
         state.numbers_mut().zip(numbers).for_each(|(x, y)| *x = y);
         Ok(Arc::new(state))
     }

@@ -27,14 +27,22 @@ const BALANCE: f64 = 1e-10;
 ///
 /// # Errors
 /// A wheel off the rail, or no equilibrium within the iterations.
-pub fn equilibrium(system: &mut TrainTrackSystem, factor: &BandFactor, t: f64, deck: &[f64], state: &mut State) -> Result<(), String> {
+pub fn equilibrium(
+    system: &mut TrainTrackSystem,
+    factor: &BandFactor,
+    t: f64,
+    deck: &[f64],
+    state: &mut State,
+) -> Result<(), String> {
     system.locate(t)?;
     let rail = rail_without_wheels(system, factor, deck);
     static_compliance(system, factor);
     let (axles, n) = (system.points.len(), system.cars.len() * DOFS);
     let wheel = |axle: usize| axle / AXLES * DOFS + FIRST_WHEEL + axle % AXLES;
-    let offset: Vec<f64> = (0..axles).map(|i| system.track.deflection(&system.points[i], &rail) + system.roughness[i]).collect();
-    let weight = DVector::from_iterator(n, system.cars.iter().flat_map(|c| c.weight().iter().copied().collect::<Vec<_>>()));
+    let offset: Vec<f64> =
+        (0..axles).map(|i| system.track.deflection(&system.points[i], &rail) + system.roughness[i]).collect();
+    let weight =
+        DVector::from_iterator(n, system.cars.iter().flat_map(|c| c.weight().iter().copied().collect::<Vec<_>>()));
     let mut stiffness = DMatrix::zeros(n, n);
     for (c, car) in system.cars.iter().enumerate() {
         stiffness.view_mut((c * DOFS, c * DOFS), (DOFS, DOFS)).copy_from(&car.stiffness);
@@ -44,8 +52,9 @@ pub fn equilibrium(system: &mut TrainTrackSystem, factor: &BandFactor, t: f64, d
     // First point of expansion: every axle under its static load.
     let mut delta: Vec<f64> = system.contacts.laws().iter().map(crate::contact::Law::static_approach).collect();
     let mut forces: Vec<f64> = delta.iter().zip(system.contacts.laws()).map(|(d, law)| law.force(*d).0).collect();
-    let mut s: Vec<f64> =
-        (0..axles).map(|i| delta[i] + (0..axles).map(|j| system.compliance[i * axles + j] * forces[j]).sum::<f64>()).collect();
+    let mut s: Vec<f64> = (0..axles)
+        .map(|i| delta[i] + (0..axles).map(|j| system.compliance[i * axles + j] * forces[j]).sum::<f64>())
+        .collect();
     let mut q: Option<DVector<f64>> = None;
     for _ in 0..ITERATIONS {
         // r = w − K q − Bᵀ F, and the tangent; the first time q is unknown and K q is left to the solution.
@@ -68,7 +77,10 @@ pub fn equilibrium(system: &mut TrainTrackSystem, factor: &BandFactor, t: f64, d
                 return Ok(());
             }
         }
-        let solved = matrix.cholesky().ok_or("the train has no static equilibrium: a car stands on fewer than two axles")?.solve(&residual);
+        let solved = matrix
+            .cholesky()
+            .ok_or("the train has no static equilibrium: a car stands on fewer than two axles")?
+            .solve(&residual);
         let next = q.map_or_else(|| solved.clone(), |q| q + &solved);
         s = (0..axles).map(|i| next[wheel(i)] - offset[i]).collect();
         let compliance = std::mem::take(&mut system.compliance);
@@ -86,7 +98,13 @@ pub fn equilibrium(system: &mut TrainTrackSystem, factor: &BandFactor, t: f64, d
 ///
 /// # Errors
 /// A wheel off the rail, or contacts that do not converge.
-pub fn pre_roll(system: &mut TrainTrackSystem, factor: &BandFactor, matrices: &StepMatrices, distance: f64, state: &mut State) -> Result<(), String> {
+pub fn pre_roll(
+    system: &mut TrainTrackSystem,
+    factor: &BandFactor,
+    matrices: &StepMatrices,
+    distance: f64,
+    state: &mut State,
+) -> Result<(), String> {
     let (h, v) = (matrices.newmark.h, system.running.speed(0.0));
     let steps = (distance / (v * h)).ceil();
     if distance <= 0.0 || !steps.is_finite() {
@@ -106,7 +124,10 @@ pub fn pre_roll(system: &mut TrainTrackSystem, factor: &BandFactor, matrices: &S
         system.free_cars(matrices, &old);
         system.free_approach(&under_wheels);
         let failed = |_| "the wheel–rail contacts did not converge in the pre-roll of the cars".to_string();
-        system.contacts.solve(&system.compliance, &system.delta_free, &mut state.delta, &mut state.forces).map_err(failed)?;
+        system
+            .contacts
+            .solve(&system.compliance, &system.delta_free, &mut state.delta, &mut state.forces)
+            .map_err(failed)?;
         system.finish_cars(matrices, &old, &state.forces, &mut new);
         std::mem::swap(&mut old, &mut new);
     }

@@ -69,17 +69,23 @@ impl Track {
             shear_stiffness: rail.shear_stiffness,
             rotary_inertia: rail.rotary_inertia,
         };
-        let scaled = |s: &Spring| Spring { stiffness: s.stiffness * factors.stiffness, damping: s.damping * factors.damping };
+        let scaled =
+            |s: &Spring| Spring { stiffness: s.stiffness * factors.stiffness, damping: s.damping * factors.damping };
         // Springs from the top, masses between them.
         let (springs, masses, shear) = match &spec.track.support {
             Support::SingleLayer { fastener } => (vec![scaled(fastener)], vec![], None),
-            Support::TwoLayer { pad, sleeper_mass, ballast } => (vec![scaled(pad), *ballast], vec![*sleeper_mass], None),
+            Support::TwoLayer { pad, sleeper_mass, ballast } => {
+                (vec![scaled(pad), *ballast], vec![*sleeper_mass], None)
+            }
             Support::ThreeLayer { pad, sleeper_mass, ballast, ballast_mass, shear, sub_ballast } => {
                 (vec![scaled(pad), *ballast, *sub_ballast], vec![*sleeper_mass, *ballast_mass], *shear)
             }
         };
         let layers = masses.len();
-        let (n, half_bandwidth) = (bays * (2 * per_bay + layers) + 2 + layers, (3 + layers).max(2 + if layers == 2 { 2 * per_bay } else { 0 }));
+        let (n, half_bandwidth) = (
+            bays * (2 * per_bay + layers) + 2 + layers,
+            (3 + layers).max(2 + if layers == 2 { 2 * per_bay } else { 0 }),
+        );
         let mut track = Self {
             from: spec.from,
             element_length: spec.track.spacing / per_bay as f64,

@@ -40,11 +40,19 @@ pub fn parameter(interface: &Interface, values: &Values, parameter: Parameter) -
 pub fn interface(spec: &TrainTrackSpec) -> Interface {
     let supports = 1..=spec.on_bridge.len();
     let axles = 1..=spec.cars.len() * AXLES;
-    let each = |range: &std::ops::RangeInclusive<usize>, make: &dyn Fn(usize) -> Variable| range.clone().map(make).collect::<Vec<_>>();
+    let each = |range: &std::ops::RangeInclusive<usize>, make: &dyn Fn(usize) -> Variable| {
+        range.clone().map(make).collect::<Vec<_>>()
+    };
     let mut inputs = each(&supports, &|i| {
-        Variable::input(format!("support[{i}].displacement"), "m", "Displacement of the deck under the support, down, from the dead-load state")
+        Variable::input(
+            format!("support[{i}].displacement"),
+            "m",
+            "Displacement of the deck under the support, down, from the dead-load state",
+        )
     });
-    inputs.extend(each(&supports, &|i| Variable::input(format!("support[{i}].velocity"), "m/s", "Velocity of the deck under the support, down")));
+    inputs.extend(each(&supports, &|i| {
+        Variable::input(format!("support[{i}].velocity"), "m/s", "Velocity of the deck under the support, down")
+    }));
     let mut outputs = each(&supports, &|i| {
         let force = Variable::output(format!("support[{i}].force"), "N", "Force of the support on the deck, down");
         Variable { feed_through: true, ..force }
@@ -54,19 +62,39 @@ pub fn interface(spec: &TrainTrackSpec) -> Interface {
     }));
     for i in axles {
         outputs.extend([
-            Variable::output(format!("wheel[{i}].contact_force"), "N", "Contact force of the axle on the rail, weight included"),
+            Variable::output(
+                format!("wheel[{i}].contact_force"),
+                "N",
+                "Contact force of the axle on the rail, weight included",
+            ),
             Variable::output(format!("wheel[{i}].position"), "m", "Abscissa of the axle"),
             Variable::output(format!("wheel[{i}].displacement"), "m", "Displacement of the wheelset, down"),
-            Variable::output(format!("wheel[{i}].rail_displacement"), "m", "Displacement of the rail under the wheel, down"),
+            Variable::output(
+                format!("wheel[{i}].rail_displacement"),
+                "m",
+                "Displacement of the rail under the wheel, down",
+            ),
         ]);
     }
     for i in 1..=spec.cars.len() {
         outputs.extend([
             Variable::output(format!("car[{i}].displacement"), "m", "Displacement of the car body's centre, down"),
             Variable::output(format!("car[{i}].acceleration"), "m/s2", "Acceleration of the car body's centre, down"),
-            Variable::output(format!("car[{i}].pitch_acceleration"), "rad/s2", "Pitch acceleration of the car body, front down"),
-            Variable::output(format!("car[{i}].front_bogie_acceleration"), "m/s2", "Acceleration of the leading bogie, down"),
-            Variable::output(format!("car[{i}].rear_bogie_acceleration"), "m/s2", "Acceleration of the trailing bogie, down"),
+            Variable::output(
+                format!("car[{i}].pitch_acceleration"),
+                "rad/s2",
+                "Pitch acceleration of the car body, front down",
+            ),
+            Variable::output(
+                format!("car[{i}].front_bogie_acceleration"),
+                "m/s2",
+                "Acceleration of the leading bogie, down",
+            ),
+            Variable::output(
+                format!("car[{i}].rear_bogie_acceleration"),
+                "m/s2",
+                "Acceleration of the trailing bogie, down",
+            ),
         ]);
     }
     Interface::new(inputs, outputs, parameters(spec))
@@ -79,18 +107,48 @@ fn parameters(spec: &TrainTrackSpec) -> Vec<Variable> {
     };
     let real = |name: &str, unit, start, text: &str| Variable::parameter(name, unit, start, text);
     vec![
-        real("speed", "m/s", spec.speed[0][1], "Train speed at the first point of the speed profile; the whole profile is scaled with it"),
+        real(
+            "speed",
+            "m/s",
+            spec.speed[0][1],
+            "Train speed at the first point of the speed profile; the whole profile is scaled with it",
+        ),
         real("front_wheel", "m", spec.front_wheel, "Abscissa of the leading wheel at the start"),
         real("irregularity_scale", "1", spec.irregularity_scale, "Factor on the rail irregularity"),
-        Variable::parameter_of("irregularity_seed", Kind::Integer { min: 0, max: i32::MAX }, seed, "Seed of a spectrum's random phases"),
+        Variable::parameter_of(
+            "irregularity_seed",
+            Kind::Integer { min: 0, max: i32::MAX },
+            seed,
+            "Seed of a spectrum's random phases",
+        ),
         real("fastener_stiffness_factor", "1", 1.0, "Factor on the stiffness of fasteners or rail pads"),
         real("fastener_damping_factor", "1", 1.0, "Factor on the damping of fasteners or rail pads"),
-        real("pre_roll", "m", spec.pre_roll, "Distance over which the cars are rolled before the start; 0: start at rest"),
-        real("step_size", "s", spec.step, "Step that is factorised for; other steps are divided into parts not longer than this"),
+        real(
+            "pre_roll",
+            "m",
+            spec.pre_roll,
+            "Distance over which the cars are rolled before the start; 0: start at rest",
+        ),
+        real(
+            "step_size",
+            "s",
+            spec.step,
+            "Step that is factorised for; other steps are divided into parts not longer than this",
+        ),
         real("gamma", "1", spec.newmark.gamma, "Newmark's gamma"),
         real("beta", "1", spec.newmark.beta, "Newmark's beta"),
-        Variable::parameter_of("local_compliance", Kind::Boolean, f64::from(u8::from(spec.local_compliance)), "Local flexibility of the rail under a load inside an element"),
-        Variable::parameter_of("input_meaning", Kind::Enumeration(INPUT_MEANING), 1.0, "What an input without derivative means over the step"),
+        Variable::parameter_of(
+            "local_compliance",
+            Kind::Boolean,
+            f64::from(u8::from(spec.local_compliance)),
+            "Local flexibility of the rail under a load inside an element",
+        ),
+        Variable::parameter_of(
+            "input_meaning",
+            Kind::Enumeration(INPUT_MEANING),
+            1.0,
+            "What an input without derivative means over the step",
+        ),
     ]
 }
 

@@ -26,7 +26,13 @@ fn cars_have_their_published_frequencies_on_a_rigid_rail() {
 
 #[test]
 fn static_axle_loads_are_the_published_ones() {
-    for (name, kilonewton) in [("ice3-trailer", 143.23), ("ice3-motor", 156.96), ("velaro-e", 152.06), ("manchester", 109.09), ("shinkansen-s300", 134.8)] {
+    for (name, kilonewton) in [
+        ("ice3-trailer", 143.23),
+        ("ice3-motor", 156.96),
+        ("velaro-e", 152.06),
+        ("manchester", 109.09),
+        ("shinkansen-s300", 134.8),
+    ] {
         let car = Car::new(&ttb_scenario::bundled::cars(name).unwrap()[0]);
         assert!((car.axle_load / 1e3 / kilonewton - 1.0).abs() < 5e-4, "{name}: {}", car.axle_load);
     }
@@ -81,7 +87,8 @@ fn the_track_follows_a_manufactured_motion_with_second_order() {
         let (re, im, square) = (k - m * w * w, c * w, k * k + c * c * w * w);
         (amplitude * b * (re * k + im * c * w) / square, amplitude * b * (im * k - re * c * w) / square, w)
     });
-    let particular = |t: f64| 1.5 * amplitude + harmonics.iter().map(|(p, q, w)| p * (w * t).cos() - q * (w * t).sin()).sum::<f64>();
+    let particular =
+        |t: f64| 1.5 * amplitude + harmonics.iter().map(|(p, q, w)| p * (w * t).cos() - q * (w * t).sin()).sum::<f64>();
     let slope = |t: f64| harmonics.iter().map(|(p, q, w)| -w * (p * (w * t).sin() + q * (w * t).cos())).sum::<f64>();
     // Plus the homogeneous part that lets it begin at rest.
     let (d0, rate) = (particular(0.0), k / c);

@@ -38,7 +38,11 @@ pub fn refuse(message: impl Into<String>) -> Answer {
 /// # Safety
 /// `component` is null or came from [`instantiate`](super::instantiate::instantiate) for the same `M`, was not freed, and
 /// no other call on it is under way (FMI 2.0 forbids the environment anything else).
-pub unsafe fn guard<M: Model>(component: fmi2Component, call: Call, work: impl FnOnce(&mut Component<M>) -> Answer) -> fmi2Status {
+pub unsafe fn guard<M: Model>(
+    component: fmi2Component,
+    call: Call,
+    work: impl FnOnce(&mut Component<M>) -> Answer,
+) -> fmi2Status {
     // SAFETY: by the contract above the pointer is null or an exclusive one to a live component.
     let Some(component) = (unsafe { component.cast::<Component<M>>().as_mut() }) else {
         return Status::Error as fmi2Status;
@@ -69,7 +73,9 @@ const RECOVER: &str = "restore an FMU state, reset or free the instance";
 
 fn why_not(stage: Stage) -> String {
     match stage {
-        Stage::Instantiated => "before initialization: call fmi2EnterInitializationMode and fmi2ExitInitializationMode first".into(),
+        Stage::Instantiated => {
+            "before initialization: call fmi2EnterInitializationMode and fmi2ExitInitializationMode first".into()
+        }
         Stage::Initialization => "in initialization mode: call fmi2ExitInitializationMode first".into(),
         Stage::Stepping => "after initialization: call fmi2Reset to begin anew".into(),
         Stage::Failed => format!("after a failed step: {RECOVER}"),

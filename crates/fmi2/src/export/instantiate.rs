@@ -27,7 +27,8 @@ pub unsafe fn instantiate<M: Model>(
     logging_on: fmi2Boolean,
 ) -> fmi2Component {
     // SAFETY: by contract.
-    let (functions, name, fmu_guid, location) = unsafe { (functions.as_ref(), text(name), text(fmu_guid), text(location)) };
+    let (functions, name, fmu_guid, location) =
+        unsafe { (functions.as_ref(), text(name), text(fmu_guid), text(location)) };
     let unnamed = CString::new(identifier).unwrap_or_default();
     let log = Log::new(functions, name.filter(|n| !n.is_empty()).unwrap_or(&unnamed), logging_on != FMI2_FALSE);
     // Unwind safety: what a panic leaves behind is dropped unseen.
@@ -45,11 +46,19 @@ pub unsafe fn instantiate<M: Model>(
     };
     let interface = model.interface();
     let (inputs, outputs) = (interface.inputs().len(), interface.outputs().len());
-    log.event(&format!("instantiated with {inputs} inputs, {outputs} outputs, {} parameters", interface.parameters().len()));
+    log.event(&format!(
+        "instantiated with {inputs} inputs, {outputs} outputs, {} parameters",
+        interface.parameters().len()
+    ));
     Box::into_raw(Box::new(Component::new(model, guid, log))).cast()
 }
 
-fn load<M: Model>(identifier: &str, fmu_type: fmi2Type, wanted: Option<&CStr>, location: Option<&CStr>) -> Result<(M, String), ModelError> {
+fn load<M: Model>(
+    identifier: &str,
+    fmu_type: fmi2Type,
+    wanted: Option<&CStr>,
+    location: Option<&CStr>,
+) -> Result<(M, String), ModelError> {
     if fmu_type != FMI2_CO_SIMULATION {
         return Err(ModelError("this FMU is for co-simulation only; instantiate it with fmi2CoSimulation".into()));
     }

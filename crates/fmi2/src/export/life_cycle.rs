@@ -17,7 +17,12 @@ const RESET: Call = Call { name: "fmi2Reset", allowed: ALWAYS };
 ///
 /// # Safety
 /// As [`guard`]; `categories` leads to `n` strings.
-pub unsafe fn set_debug_logging<M: Model>(c: fmi2Component, on: fmi2Boolean, n: usize, categories: *const fmi2String) -> fmi2Status {
+pub unsafe fn set_debug_logging<M: Model>(
+    c: fmi2Component,
+    on: fmi2Boolean,
+    n: usize,
+    categories: *const fmi2String,
+) -> fmi2Status {
     let work = |c: &mut Component<M>| {
         // SAFETY: by contract.
         let pointers = unsafe { slice(categories, n) }?;
@@ -62,7 +67,9 @@ pub unsafe fn setup_experiment<M: Model>(
 /// As [`guard`].
 pub unsafe fn enter_initialization<M: Model>(c: fmi2Component) -> fmi2Status {
     // SAFETY: by contract.
-    unsafe { guard::<M>(c, ENTER_INITIALIZATION, |c| c.instance.enter_initialization(c.progress.start).map(|()| Status::Ok)) }
+    unsafe {
+        guard::<M>(c, ENTER_INITIALIZATION, |c| c.instance.enter_initialization(c.progress.start).map(|()| Status::Ok))
+    }
 }
 
 /// Static equilibrium becomes the state the first step starts from.

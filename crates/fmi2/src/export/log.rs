@@ -49,7 +49,14 @@ impl Log {
         // SAFETY: the environment's own function, called as FMI 2.0 says; all strings are zero-terminated and outlive the
         // call, and "%s" takes exactly the one argument that follows it, so that a '%' in the message is harmless.
         unsafe {
-            logger(self.environment, self.instance.as_ptr(), status as i32, category.as_ptr(), c"%s".as_ptr(), message.as_ptr());
+            logger(
+                self.environment,
+                self.instance.as_ptr(),
+                status as i32,
+                category.as_ptr(),
+                c"%s".as_ptr(),
+                message.as_ptr(),
+            );
         }
     }
 }

@@ -93,7 +93,14 @@ mod tests {
 
     #[test]
     fn every_form_of_a_file_uri_leads_to_the_same_folder() {
-        for uri in [c"file:///tmp/a", c"file:/tmp/a", c"file:////tmp/a", c"file://localhost/tmp/a", c"FILE:///tmp/a", c"file://tmp/a"] {
+        for uri in [
+            c"file:///tmp/a",
+            c"file:/tmp/a",
+            c"file:////tmp/a",
+            c"file://localhost/tmp/a",
+            c"FILE:///tmp/a",
+            c"file://tmp/a",
+        ] {
             assert_eq!(folder(uri), "/tmp/a", "{uri:?}");
         }
         assert_eq!(Path::new(&folder(c"file:///tmp/a/")), Path::new("/tmp/a"));

@@ -27,7 +27,9 @@ const SAVEABLE: u8 = ALIVE | Stage::Terminated as u8;
 impl<M: Model> Component<M> {
     fn find(&self, handle: fmi2FMUstate) -> Result<usize, ModelError> {
         let found = self.states.iter().position(|s| std::ptr::eq(&raw const **s, handle.cast()));
-        found.ok_or_else(|| ModelError("this FMU state was not saved by this instance, or was freed; begin with a NULL handle".into()))
+        found.ok_or_else(|| {
+            ModelError("this FMU state was not saved by this instance, or was freed; begin with a NULL handle".into())
+        })
     }
 
     /// Keeps a state, in the place of the one that `handle` names unless that is null, and names it.
@@ -154,7 +156,12 @@ pub unsafe fn serialized_size<M: Model>(c: fmi2Component, state: fmi2FMUstate, s
 ///
 /// # Safety
 /// As [`guard`]; `bytes` leads to `size` bytes.
-pub unsafe fn serialize_state<M: Model>(c: fmi2Component, state: fmi2FMUstate, bytes: *mut fmi2Byte, size: usize) -> fmi2Status {
+pub unsafe fn serialize_state<M: Model>(
+    c: fmi2Component,
+    state: fmi2FMUstate,
+    bytes: *mut fmi2Byte,
+    size: usize,
+) -> fmi2Status {
     let work = |c: &mut Component<M>| {
         let serialized = c.serialize(&c.states[c.find(state)?]);
         // SAFETY: by contract.
@@ -173,7 +180,12 @@ pub unsafe fn serialize_state<M: Model>(c: fmi2Component, state: fmi2FMUstate, b
 ///
 /// # Safety
 /// As [`guard`]; `bytes` leads to `size` bytes, `state` to a handle that is null or came from this instance.
-pub unsafe fn deserialize_state<M: Model>(c: fmi2Component, bytes: *const fmi2Byte, size: usize, state: *mut fmi2FMUstate) -> fmi2Status {
+pub unsafe fn deserialize_state<M: Model>(
+    c: fmi2Component,
+    bytes: *const fmi2Byte,
+    size: usize,
+    state: *mut fmi2FMUstate,
+) -> fmi2Status {
     let work = |c: &mut Component<M>| {
         // SAFETY: by contract.
         let (bytes, handle) = unsafe { (slice(bytes.cast::<u8>(), size)?, place(state)?) };

@@ -12,7 +12,12 @@ const PAST_STOP: f64 = 1e-9;
 ///
 /// # Safety
 /// As [`guard`].
-pub unsafe fn do_step<M: Model>(c: fmi2Component, t: fmi2Real, h: fmi2Real, _no_set_state_prior: fmi2Boolean) -> fmi2Status {
+pub unsafe fn do_step<M: Model>(
+    c: fmi2Component,
+    t: fmi2Real,
+    h: fmi2Real,
+    _no_set_state_prior: fmi2Boolean,
+) -> fmi2Status {
     let work = |c: &mut Component<M>| {
         if !t.is_finite() || !h.is_finite() || h < 0.0 {
             return refuse(format!("a step of {h} s from t = {t} s is impossible"));
@@ -20,7 +25,10 @@ pub unsafe fn do_step<M: Model>(c: fmi2Component, t: fmi2Real, h: fmi2Real, _no_
         if let Some(stop) = c.progress.stop
             && t + h > stop + PAST_STOP * stop.abs().max(1.0)
         {
-            return refuse(format!("the step from {t} s to {} s passes the stop time {stop} s given to fmi2SetupExperiment", t + h));
+            return refuse(format!(
+                "the step from {t} s to {} s passes the stop time {stop} s given to fmi2SetupExperiment",
+                t + h
+            ));
         }
         c.step_failed = true; // until it is done
         c.instance.step(t, h)?;
@@ -99,7 +107,11 @@ pub unsafe fn get_integer_status<M: Model>(c: fmi2Component, kind: fmi2StatusKin
 ///
 /// # Safety
 /// As [`guard`]; `out` leads to a place for the result.
-pub unsafe fn get_boolean_status<M: Model>(c: fmi2Component, kind: fmi2StatusKind, out: *mut fmi2Boolean) -> fmi2Status {
+pub unsafe fn get_boolean_status<M: Model>(
+    c: fmi2Component,
+    kind: fmi2StatusKind,
+    out: *mut fmi2Boolean,
+) -> fmi2Status {
     // SAFETY: by contract.
     unsafe { answer(c, "fmi2GetBooleanStatus", (kind, status_kind::TERMINATED), out, |_: &Component<M>| FMI2_FALSE) }
 }
@@ -110,7 +122,9 @@ pub unsafe fn get_boolean_status<M: Model>(c: fmi2Component, kind: fmi2StatusKin
 /// As [`guard`]; `out` leads to a place for the result.
 pub unsafe fn get_string_status<M: Model>(c: fmi2Component, kind: fmi2StatusKind, out: *mut fmi2String) -> fmi2Status {
     // SAFETY: by contract.
-    unsafe { answer(c, "fmi2GetStringStatus", (kind, status_kind::PENDING_STATUS), out, |_: &Component<M>| c"".as_ptr()) }
+    unsafe {
+        answer(c, "fmi2GetStringStatus", (kind, status_kind::PENDING_STATUS), out, |_: &Component<M>| c"".as_ptr())
+    }
 }
 
 /// The model-exchange functions: exported, since one importer binds all symbols, and refused.

@@ -5,7 +5,6 @@
 use super::component::{Component, Type};
 use super::guard::{ALIVE, Answer, Call, DONE, READABLE, guard, refuse, slice, slice_mut};
 use crate::types::*;
-use ttb_coupling::instance::Phase;
 use ttb_coupling::{Model, ModelError};
 
 impl<M: Model> Component<M> {
@@ -15,9 +14,14 @@ impl<M: Model> Component<M> {
         let Some(reference) = references.find(|r| self.types.get(*r) != Some(&wanted)) else { return Ok(()) };
         Err(ModelError(match self.types.get(reference) {
             Some(Type::Real) => format!("{} is a Real; use the Real function", self.name(reference)),
-            Some(Type::Integer) => format!("{} is an Integer or Enumeration; use the Integer function", self.name(reference)),
+            Some(Type::Integer) => {
+                format!("{} is an Integer or Enumeration; use the Integer function", self.name(reference))
+            }
             Some(Type::Boolean) => format!("{} is a Boolean; use the Boolean function", self.name(reference)),
-            None => format!("there is no value reference {reference}; they run from 0 to {}", self.types.len().saturating_sub(1)),
+            None => format!(
+                "there is no value reference {reference}; they run from 0 to {}",
+                self.types.len().saturating_sub(1)
+            ),
         }))
     }
 
@@ -29,17 +33,7 @@ impl<M: Model> Component<M> {
 
     fn set(&mut self, references: &[u32], wanted: Type, values: &[f64]) -> Answer {
         self.check_types(references, wanted)?;
-        if self.instance.phase() == Phase::Stepping {
-            self.instance.set(references, values)?;
-            return DONE;
-        }
-        // Our outputs are `initial="exact"`: FMI 2.0 lets the environment set them to their start value, and some do.
-        let interface = self.instance.model().interface();
-        let outputs = interface.outputs();
-        let is_start = |r: usize, value: f64| outputs.contains(&r) && interface.variables()[r].start == value;
-        let meant: Vec<_> = references.iter().zip(values).filter(|(r, value)| !is_start(**r as usize, **value)).collect();
-        let (references, values): (Vec<u32>, Vec<f64>) = meant.into_iter().unzip();
-        self.instance.set(&references, &values)?;
+        self.instance.set(references, values)?;
         DONE
     }
 }
@@ -48,7 +42,12 @@ impl<M: Model> Component<M> {
 ///
 /// # Safety
 /// As [`guard`]; the arrays hold `n` items.
-pub unsafe fn get_real<M: Model>(c: fmi2Component, vr: *const fmi2ValueReference, n: usize, values: *mut fmi2Real) -> fmi2Status {
+pub unsafe fn get_real<M: Model>(
+    c: fmi2Component,
+    vr: *const fmi2ValueReference,
+    n: usize,
+    values: *mut fmi2Real,
+) -> fmi2Status {
     let call = Call { name: "fmi2GetReal", allowed: READABLE };
     // SAFETY: by contract.
     unsafe { guard::<M>(c, call, |c| c.get(slice(vr, n)?, Type::Real, slice_mut(values, n)?)) }
@@ -58,14 +57,26 @@ pub unsafe fn get_real<M: Model>(c: fmi2Component, vr: *const fmi2ValueReference
 ///
 /// # Safety
 /// As [`guard`]; the arrays hold `n` items.
-pub unsafe fn set_real<M: Model>(c: fmi2Component, vr: *const fmi2ValueReference, n: usize, values: *const fmi2Real) -> fmi2Status {
+pub unsafe fn set_real<M: Model>(
+    c: fmi2Component,
+    vr: *const fmi2ValueReference,
+    n: usize,
+    values: *const fmi2Real,
+) -> fmi2Status {
     let call = Call { name: "fmi2SetReal", allowed: ALIVE };
     // SAFETY: by contract.
     unsafe { guard::<M>(c, call, |c| c.set(slice(vr, n)?, Type::Real, slice(values, n)?)) }
 }
 
 /// Reads Integers, enumerations and Booleans alike: C has one type for them.
-unsafe fn get_whole<M: Model>(c: fmi2Component, call: Call, wanted: Type, vr: *const u32, n: usize, values: *mut i32) -> fmi2Status {
+unsafe fn get_whole<M: Model>(
+    c: fmi2Component,
+    call: Call,
+    wanted: Type,
+    vr: *const u32,
+    n: usize,
+    values: *mut i32,
+) -> fmi2Status {
     let work = |c: &mut Component<M>| {
         // SAFETY: by the contract of the callers.
         let (vr, values) = unsafe { (slice(vr, n)?, slice_mut(values, n)?) };
@@ -101,7 +112,12 @@ unsafe fn set_whole<M: Model>(
 ///
 /// # Safety
 /// As [`guard`]; the arrays hold `n` items.
-pub unsafe fn get_integer<M: Model>(c: fmi2Component, vr: *const fmi2ValueReference, n: usize, values: *mut fmi2Integer) -> fmi2Status {
+pub unsafe fn get_integer<M: Model>(
+    c: fmi2Component,
+    vr: *const fmi2ValueReference,
+    n: usize,
+    values: *mut fmi2Integer,
+) -> fmi2Status {
     // SAFETY: by contract.
     unsafe { get_whole::<M>(c, Call { name: "fmi2GetInteger", allowed: READABLE }, Type::Integer, vr, n, values) }
 }
@@ -110,7 +126,12 @@ pub unsafe fn get_integer<M: Model>(c: fmi2Component, vr: *const fmi2ValueRefere
 ///
 /// # Safety
 /// As [`guard`]; the arrays hold `n` items.
-pub unsafe fn get_boolean<M: Model>(c: fmi2Component, vr: *const fmi2ValueReference, n: usize, values: *mut fmi2Boolean) -> fmi2Status {
+pub unsafe fn get_boolean<M: Model>(
+    c: fmi2Component,
+    vr: *const fmi2ValueReference,
+    n: usize,
+    values: *mut fmi2Boolean,
+) -> fmi2Status {
     // SAFETY: by contract.
     unsafe { get_whole::<M>(c, Call { name: "fmi2GetBoolean", allowed: READABLE }, Type::Boolean, vr, n, values) }
 }
@@ -119,16 +140,28 @@ pub unsafe fn get_boolean<M: Model>(c: fmi2Component, vr: *const fmi2ValueRefere
 ///
 /// # Safety
 /// As [`guard`]; the arrays hold `n` items.
-pub unsafe fn set_integer<M: Model>(c: fmi2Component, vr: *const fmi2ValueReference, n: usize, values: *const fmi2Integer) -> fmi2Status {
+pub unsafe fn set_integer<M: Model>(
+    c: fmi2Component,
+    vr: *const fmi2ValueReference,
+    n: usize,
+    values: *const fmi2Integer,
+) -> fmi2Status {
     // SAFETY: by contract.
-    unsafe { set_whole::<M>(c, Call { name: "fmi2SetInteger", allowed: ALIVE }, Type::Integer, vr, n, values, f64::from) }
+    unsafe {
+        set_whole::<M>(c, Call { name: "fmi2SetInteger", allowed: ALIVE }, Type::Integer, vr, n, values, f64::from)
+    }
 }
 
 /// Sets Booleans; anything but 0 is true.
 ///
 /// # Safety
 /// As [`guard`]; the arrays hold `n` items.
-pub unsafe fn set_boolean<M: Model>(c: fmi2Component, vr: *const fmi2ValueReference, n: usize, values: *const fmi2Boolean) -> fmi2Status {
+pub unsafe fn set_boolean<M: Model>(
+    c: fmi2Component,
+    vr: *const fmi2ValueReference,
+    n: usize,
+    values: *const fmi2Boolean,
+) -> fmi2Status {
     let truth = |value: i32| f64::from(u8::from(value != FMI2_FALSE));
     // SAFETY: by contract.
     unsafe { set_whole::<M>(c, Call { name: "fmi2SetBoolean", allowed: ALIVE }, Type::Boolean, vr, n, values, truth) }

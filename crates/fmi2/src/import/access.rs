@@ -38,7 +38,12 @@ impl FmuInstance {
     ///
     /// # Errors
     /// The FMU cannot or refuses, or the slices differ in length.
-    pub fn set_input_derivatives(&mut self, references: &[u32], orders: &[i32], values: &[f64]) -> Result<(), FmuError> {
+    pub fn set_input_derivatives(
+        &mut self,
+        references: &[u32],
+        orders: &[i32],
+        values: &[f64],
+    ) -> Result<(), FmuError> {
         if !self.worth_calling(references.len(), values.len().min(orders.len()))? {
             return Ok(());
         }
@@ -54,7 +59,13 @@ impl FmuInstance {
     ///
     /// # Errors
     /// The FMU cannot or refuses, or slices differ in length.
-    pub fn directional_derivative(&mut self, unknown: &[u32], known: &[u32], seed: &[f64], out: &mut [f64]) -> Result<(), FmuError> {
+    pub fn directional_derivative(
+        &mut self,
+        unknown: &[u32],
+        known: &[u32],
+        seed: &[f64],
+        out: &mut [f64],
+    ) -> Result<(), FmuError> {
         if !self.worth_calling(unknown.len(), out.len())? || !self.worth_calling(known.len(), seed.len())? {
             out.fill(0.0);
             return Ok(());
@@ -77,7 +88,9 @@ impl FmuInstance {
         match kind {
             VariableType::Real => self.set_real(&[vr], &[value]),
             VariableType::Boolean => self.set_boolean(vr, value != 0.0),
-            VariableType::Integer | VariableType::Enumeration if value == f64::from(value as i32) => self.set_integer(vr, value as i32),
+            VariableType::Integer | VariableType::Enumeration if value == f64::from(value as i32) => {
+                self.set_integer(vr, value as i32)
+            }
             VariableType::Integer | VariableType::Enumeration => {
                 Err(self.impossible(format!("{name} is an Integer and cannot be set to {value}")))
             }
@@ -140,7 +153,11 @@ impl FmuInstance {
         // SAFETY: a live instance and arrays of one item.
         self.run("fmi2GetString", |_, c| unsafe { get(c, &reference, 1, out) })?;
         // SAFETY: FMI 2.0 keeps the string until the next call; it is copied here.
-        Ok(if value.is_null() { String::new() } else { unsafe { CStr::from_ptr(value) }.to_string_lossy().into_owned() })
+        Ok(if value.is_null() {
+            String::new()
+        } else {
+            unsafe { CStr::from_ptr(value) }.to_string_lossy().into_owned()
+        })
     }
 
     /// Sets an Integer or an enumeration.

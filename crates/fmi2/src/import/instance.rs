@@ -63,7 +63,12 @@ unsafe extern "C" {
 }
 
 impl FmuInstance {
-    pub(super) fn new(name: &str, description: Arc<ModelDescription>, loaded: Arc<Loaded>, logging: bool) -> Result<Self, FmuError> {
+    pub(super) fn new(
+        name: &str,
+        description: Arc<ModelDescription>,
+        loaded: Arc<Loaded>,
+        logging: bool,
+    ) -> Result<Self, FmuError> {
         let sink = Sink::new();
         let callbacks = Box::new(fmi2CallbackFunctions {
             logger: Some(LOGGER),
@@ -94,7 +99,18 @@ impl FmuInstance {
         }
         let tally = Tally { time: begin.elapsed(), ..Tally::default() };
         let (health, states, initialized) = (Health::Sound, Vec::new(), false);
-        Ok(Self { name, description, component, health, tally, states, initialized, sink, _callbacks: callbacks, loaded })
+        Ok(Self {
+            name,
+            description,
+            component,
+            health,
+            tally,
+            states,
+            initialized,
+            sink,
+            _callbacks: callbacks,
+            loaded,
+        })
     }
 
     /// The name it was given.
@@ -121,7 +137,9 @@ impl FmuInstance {
     pub fn setup_experiment(&mut self, start: f64, stop: Option<f64>) -> Result<(), FmuError> {
         let (defined, stop) = (fmi2Boolean::from(stop.is_some()), stop.unwrap_or(0.0));
         // SAFETY: a live instance.
-        self.run("fmi2SetupExperiment", |f, c| unsafe { (f.setup_experiment)(c, FMI2_FALSE, 0.0, start, defined, stop) })
+        self.run("fmi2SetupExperiment", |f, c| unsafe {
+            (f.setup_experiment)(c, FMI2_FALSE, 0.0, start, defined, stop)
+        })
     }
 
     /// Begins initialization.
@@ -190,7 +208,11 @@ impl FmuInstance {
     }
 
     /// Makes a call: checks that it is allowed, takes the time, turns the answer into a result.
-    pub(super) fn run(&mut self, call: &'static str, work: impl FnOnce(&Functions, fmi2Component) -> fmi2Status) -> Result<(), FmuError> {
+    pub(super) fn run(
+        &mut self,
+        call: &'static str,
+        work: impl FnOnce(&Functions, fmi2Component) -> fmi2Status,
+    ) -> Result<(), FmuError> {
         if self.health != Health::Sound {
             return Err(self.unusable(call));
         }
@@ -212,7 +234,12 @@ impl FmuInstance {
             Status::Fatal => self.health = Health::Lost,
             Status::Discard | Status::Error | Status::Pending => self.health = Health::Broken,
         }
-        Err(FmuError::Call { instance: self.name.clone(), call: call.to_string(), status, messages: self.sink.since(mark) })
+        Err(FmuError::Call {
+            instance: self.name.clone(),
+            call: call.to_string(),
+            status,
+            messages: self.sink.since(mark),
+        })
     }
 
     #[cold]

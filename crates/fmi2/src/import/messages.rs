@@ -33,7 +33,14 @@ pub(super) struct Sink {
 
 unsafe extern "C" {
     /// The shim in logger.c.
-    fn ttb_fmi2_logger(sink: *mut c_void, name: *const c_char, status: c_int, category: *const c_char, message: *const c_char, ...);
+    fn ttb_fmi2_logger(
+        sink: *mut c_void,
+        name: *const c_char,
+        status: c_int,
+        category: *const c_char,
+        message: *const c_char,
+        ...
+    );
 }
 
 /// The `logger` for an FMU whose `componentEnvironment` is a [`Sink`].

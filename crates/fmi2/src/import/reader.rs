@@ -146,12 +146,16 @@ impl Reading {
         let identifier = attribute(e, "modelIdentifier").filter(|id| !id.is_empty() && !id.contains(['/', '\\', '\0']));
         self.co_simulation = true;
         self.description.co_simulation = Capabilities {
-            model_identifier: identifier
-                .ok_or_else(|| DescriptionError::Attribute { element: "CoSimulation".into(), attribute: "modelIdentifier" })?,
+            model_identifier: identifier.ok_or_else(|| DescriptionError::Attribute {
+                element: "CoSimulation".into(),
+                attribute: "modelIdentifier",
+            })?,
             needs_execution_tool: flag("needsExecutionTool"),
             can_handle_variable_communication_step_size: flag("canHandleVariableCommunicationStepSize"),
             can_interpolate_inputs: flag("canInterpolateInputs"),
-            max_output_derivative_order: attribute(e, "maxOutputDerivativeOrder").and_then(|text| text.trim().parse().ok()).unwrap_or(0),
+            max_output_derivative_order: attribute(e, "maxOutputDerivativeOrder")
+                .and_then(|text| text.trim().parse().ok())
+                .unwrap_or(0),
             can_run_asynchronously: flag("canRunAsynchronuously"), // sic: the schema has it so
             can_be_instantiated_only_once_per_process: flag("canBeInstantiatedOnlyOncePerProcess"),
             can_not_use_memory_management_functions: flag("canNotUseMemoryManagementFunctions"),
@@ -166,7 +170,8 @@ impl Reading {
         let without = |element: String, attribute| DescriptionError::Attribute { element, attribute };
         let name = attribute(e, "name").ok_or_else(|| without("a ScalarVariable".into(), "name"))?;
         let value_reference = attribute(e, "valueReference").and_then(|text| text.trim().parse().ok());
-        let value_reference = value_reference.ok_or_else(|| without(format!("the ScalarVariable {name}"), "valueReference"))?;
+        let value_reference =
+            value_reference.ok_or_else(|| without(format!("the ScalarVariable {name}"), "valueReference"))?;
         let text = |name, default: &str| attribute(e, name).unwrap_or_else(|| default.to_string());
         self.description.by_name.insert(name.clone(), self.description.variables.len());
         self.description.variables.push(ScalarVariable {

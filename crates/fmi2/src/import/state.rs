@@ -23,7 +23,8 @@ impl FmuInstance {
 
     /// Whether directional derivatives are given, by declaration and by symbol.
     pub fn can_derive(&self) -> bool {
-        self.description.co_simulation.provides_directional_derivative && self.loaded.functions.directional_derivative.is_some()
+        self.description.co_simulation.provides_directional_derivative
+            && self.loaded.functions.directional_derivative.is_some()
     }
 
     /// An empty slot; it lasts as long as the instance.
@@ -102,11 +103,15 @@ impl FmuInstance {
     /// # Errors
     /// The FMU cannot or refuses.
     pub fn deserialize(&mut self, bytes: &[u8], slot: &StateSlot) -> Result<(), FmuError> {
-        let Some(deserialize) = self.loaded.functions.deserialize_state else { return Err(self.missing("fmi2DeSerializeFMUstate")) };
+        let Some(deserialize) = self.loaded.functions.deserialize_state else {
+            return Err(self.missing("fmi2DeSerializeFMUstate"));
+        };
         let mut handle = self.handle(slot)?;
         let place = &raw mut handle;
         // SAFETY: a live instance, the bytes, and a handle that is null or of this instance.
-        let done = self.run("fmi2DeSerializeFMUstate", |_, c| unsafe { deserialize(c, bytes.as_ptr().cast(), bytes.len(), place) });
+        let done = self.run("fmi2DeSerializeFMUstate", |_, c| unsafe {
+            deserialize(c, bytes.as_ptr().cast(), bytes.len(), place)
+        });
         self.states[slot.0] = handle;
         done
     }

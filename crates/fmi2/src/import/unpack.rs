@@ -84,7 +84,8 @@ pub fn unpack_within(fmu: &Path, limits: Limits) -> Result<TempDir, UnpackError>
     }
     let limit = limits.bytes.min(limits.harmless_bytes.max(packed.saturating_mul(limits.ratio)));
     let unwritable = |path: &Path, source| UnpackError::Write { path: path.to_path_buf(), source };
-    let folder = tempfile::Builder::new().prefix("ttb-fmu-").tempdir().map_err(|e| unwritable(&std::env::temp_dir(), e))?;
+    let folder =
+        tempfile::Builder::new().prefix("ttb-fmu-").tempdir().map_err(|e| unwritable(&std::env::temp_dir(), e))?;
     let mut room = limit;
     for i in 0..archive.len() {
         let mut entry = archive.by_index(i)?;
@@ -105,7 +106,8 @@ pub fn unpack_within(fmu: &Path, limits: Limits) -> Result<TempDir, UnpackError>
             created => created.map_err(|e| unwritable(&to, e))?,
         };
         // Counted while copying: the sizes in the archive's headers may lie.
-        let written = io::copy(&mut (&mut entry).take(room.saturating_add(1)), &mut out).map_err(|e| unwritable(&to, e))?;
+        let written =
+            io::copy(&mut (&mut entry).take(room.saturating_add(1)), &mut out).map_err(|e| unwritable(&to, e))?;
         room = room.checked_sub(written).ok_or(UnpackError::TooLarge { limit, packed })?;
     }
     Ok(folder)

@@ -29,7 +29,8 @@ pub fn fmu(entries: &[(&str, &[u8])]) -> Made {
 /// Compiles foreign.c for `n` Reals each way.
 pub fn compile(n: usize, poor: bool) -> Vec<u8> {
     let folder = tempfile::tempdir().unwrap();
-    let (source, library) = (Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/models/foreign.c"), folder.path().join("x.so"));
+    let (source, library) =
+        (Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/models/foreign.c"), folder.path().join("x.so"));
     let mut cc = Command::new(std::env::var("CC").unwrap_or("cc".into()));
     cc.args(["-O2", "-shared", "-fPIC", "-o"]).arg(&library).arg(source).arg(format!("-DN={n}"));
     if poor {
@@ -42,8 +43,11 @@ pub fn compile(n: usize, poor: bool) -> Vec<u8> {
 /// The description of foreign.c; `attributes` go into its CoSimulation element.
 pub fn description(n: usize, attributes: &str) -> String {
     let variable = |i: usize| {
-        let (name, causality) = if i < n { (format!("in[{}]", i + 1), "input") } else { (format!("out[{}]", i + 1 - n), "output") };
-        format!("<ScalarVariable name=\"{name}\" valueReference=\"{i}\" causality=\"{causality}\"><Real start=\"0\"/></ScalarVariable>")
+        let (name, causality) =
+            if i < n { (format!("in[{}]", i + 1), "input") } else { (format!("out[{}]", i + 1 - n), "output") };
+        format!(
+            "<ScalarVariable name=\"{name}\" valueReference=\"{i}\" causality=\"{causality}\"><Real start=\"0\"/></ScalarVariable>"
+        )
     };
     let variables: String = (0..2 * n).map(variable).collect();
     format!(

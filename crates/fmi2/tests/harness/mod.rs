@@ -45,7 +45,14 @@ impl Log {
 
 /// Takes the one variable argument of "%s" as a fixed one: on the ABIs of Linux a callee finds a pointer argument in the
 /// same register either way.
-unsafe extern "C" fn logger(env: *mut c_void, _name: fmi2String, status: c_int, category: fmi2String, format: fmi2String, text: *const c_char) {
+unsafe extern "C" fn logger(
+    env: *mut c_void,
+    _name: fmi2String,
+    status: c_int,
+    category: fmi2String,
+    format: fmi2String,
+    text: *const c_char,
+) {
     // SAFETY: the shell passes zero-terminated strings, and the environment is a Log.
     let (log, string) = unsafe { (&*env.cast::<Log>(), |s| CStr::from_ptr(s).to_str().unwrap().to_string()) };
     assert_eq!(string(format), "%s");
@@ -56,7 +63,13 @@ pub fn callbacks(log: &Log) -> fmi2CallbackFunctions {
     // SAFETY: see `logger`.
     let logger: fmi2CallbackLogger = unsafe { std::mem::transmute(logger as *const ()) };
     let environment = ptr::from_ref(log).cast_mut().cast();
-    fmi2CallbackFunctions { logger: Some(logger), allocate_memory: None, free_memory: None, step_finished: None, component_environment: environment }
+    fmi2CallbackFunctions {
+        logger: Some(logger),
+        allocate_memory: None,
+        free_memory: None,
+        step_finished: None,
+        component_environment: environment,
+    }
 }
 
 /// An instance with its log.
@@ -70,7 +83,17 @@ pub fn instantiate(location: Option<&CStr>, guid: &CStr) -> (fmi2Component, Box<
     let callbacks = callbacks(&log);
     let location = location.map_or(ptr::null(), CStr::as_ptr);
     // SAFETY: valid strings; the shell copies the callbacks.
-    let c = unsafe { fmi2::fmi2Instantiate(c"osc".as_ptr(), FMI2_CO_SIMULATION, guid.as_ptr(), location, &callbacks, FMI2_FALSE, FMI2_FALSE) };
+    let c = unsafe {
+        fmi2::fmi2Instantiate(
+            c"osc".as_ptr(),
+            FMI2_CO_SIMULATION,
+            guid.as_ptr(),
+            location,
+            &callbacks,
+            FMI2_FALSE,
+            FMI2_FALSE,
+        )
+    };
     (c, log)
 }
 

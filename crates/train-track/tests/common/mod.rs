@@ -15,7 +15,13 @@ pub fn spec() -> TrainTrackSpec {
         front_wheel: 30.0,
         speed: vec![[0.0, 250.0 / 3.6]],
         pre_roll: 0.0,
-        contact: Contact { law: ContactLaw::Hertz, wheels_per_axle: 1, hertz_constant: None, tread: Tread::Worn, wheel_radius: 0.46 },
+        contact: Contact {
+            law: ContactLaw::Hertz,
+            wheels_per_axle: 1,
+            hertz_constant: None,
+            tread: Tread::Worn,
+            wheel_radius: 0.46,
+        },
         track: TrackType {
             rail: Rail { bending_stiffness: ei, mass: 121.28, shear_stiffness: None, rotary_inertia: 0.0 },
             support: Support::SingleLayer { fastener: Spring { stiffness: 1e8, damping: 7.25e4 } },
@@ -50,7 +56,8 @@ pub fn started(spec: TrainTrackSpec) -> Instance<TrainTrack> {
 
 /// Value of a variable by name.
 pub fn value(instance: &mut Instance<TrainTrack>, name: &str) -> f64 {
-    let reference = ttb_coupling::Model::interface(instance.model()).find(name).unwrap_or_else(|| panic!("no variable {name}"));
+    let reference =
+        ttb_coupling::Model::interface(instance.model()).find(name).unwrap_or_else(|| panic!("no variable {name}"));
     let mut out = [0.0];
     instance.get(&[reference as u32], &mut out).expect("readable");
     out[0]
