@@ -42,6 +42,17 @@ pub fn examples() -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../examples")
 }
 
+/// The program that `cargo build` left beside this test or benchmark.
+///
+/// # Panics
+/// It is not there.
+pub fn ttb() -> PathBuf {
+    let test = std::env::current_exe().expect("path of the test");
+    let program = test.ancestors().nth(2).expect("target folder").join("ttb");
+    assert!(program.is_file(), "{} is missing: run tests/run, or cargo build in this profile first", program.display());
+    program
+}
+
 /// An example scenario.
 ///
 /// # Panics

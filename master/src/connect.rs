@@ -31,7 +31,7 @@ pub fn connect(train_track: &Path, bridge: &Path, checked: &Checked) -> Result<C
     let bridge = instantiate(bridge, "Bridge", end)?;
     let forces = shared(train_track.description(), bridge.description());
     let motions = shared(bridge.description(), train_track.description());
-    let mut warnings = Vec::new();
+    let mut warnings = checked.warnings.clone();
     if let Some(open) = unconnected(train_track.description(), &motions) {
         return Err(Error::Input(format!(
             "{}: no output of {} has the name of its input {open}",
@@ -45,6 +45,7 @@ pub fn connect(train_track: &Path, bridge: &Path, checked: &Checked) -> Result<C
             "{a} and {b} share no variable of equal name that is an input of one and an output of the other"
         )));
     }
+    refuse_strangers(&bridge, &train_track, &forces)?;
     if let Some(open) = unconnected(bridge.description(), &forces) {
         warnings.push(format!("{}: input {open} is connected to nothing and keeps its start value", bridge.name()));
     }
@@ -57,6 +58,12 @@ pub fn connect(train_track: &Path, bridge: &Path, checked: &Checked) -> Result<C
                 fmu.name()
             )));
         }
+    }
+    if checked.scenario.coupling.send == Send::Rate && !bridge.can_interpolate() {
+        let name = bridge.name();
+        return Err(Error::Input(format!(
+            "coupling.send is rate, but {name} cannot interpolate inputs: use auto or mean"
+        )));
     }
     let train_track = FmuSubsystem::new(train_track, &motions, &forces)?;
     let bridge = FmuSubsystem::new(bridge, &forces, &motions)?;
@@ -89,6 +96,28 @@ fn unconnected(description: &ModelDescription, connected: &[String]) -> Option<S
     let first = open.next()?.name.clone();
     let more = open.count();
     Some(if more == 0 { first } else { format!("{first} (and {more} more)") })
+}
+
+/// Two FMUs of different scenarios share some names of a series, `support[1].force` and so on, and lack others: coupled all
+/// the same they would lose forces.
+fn refuse_strangers(bridge: &FmuInstance, train_track: &FmuInstance, forces: &[String]) -> Result<(), Error> {
+    let series = |name: &str| name.split(|c: char| c.is_ascii_digit()).collect::<Vec<_>>().join("#");
+    let coupled: HashSet<String> = forces.iter().map(|name| series(name)).collect();
+    let known: HashSet<&str> = forces.iter().map(String::as_str).collect();
+    for (fmu, causality) in [(bridge, "input"), (train_track, "output")] {
+        let alone = |name: &str| coupled.contains(&series(name)) && !known.contains(name);
+        let mut lonely = fmu.description().with_causality(causality).filter(|v| alone(&v.name));
+        if let Some(first) = lonely.next() {
+            let (name, more) = (&first.name, lonely.count());
+            return Err(Error::Input(format!(
+                "{}: {causality} {name} (and {more} more) has no partner, though {} others of its series have: the two FMUs \
+                 belong to different scenarios",
+                fmu.name(),
+                forces.len()
+            )));
+        }
+    }
+    Ok(())
 }
 
 fn settings(checked: &Checked) -> Settings {

@@ -1,10 +1,9 @@
 //! What a run leaves behind step by step: results.csv and iterations.csv, and every value at hand for peaks and plots.
 
 use std::fs::File;
-use std::io::BufWriter;
+use std::io::{BufWriter, Write};
 use std::path::{Path, PathBuf};
 
-use csv::Writer;
 use ttb_coupling::StepInfo;
 use ttb_coupling::iteration::Outcome;
 use ttb_fmi2::import::{FmuSubsystem, ModelDescription, VariableType};
@@ -65,8 +64,8 @@ impl Recorder {
         train_track.read(&self.references[0], first).map_err(|e| Error::Fmu(e.to_string()))?;
         bridge.read(&self.references[1], second).map_err(|e| Error::Fmu(e.to_string()))?;
         if n.is_multiple_of(self.every) || n == self.last {
-            self.results.number(t)?;
-            self.row.iter().try_for_each(|x| self.results.number(*x))?;
+            self.results.number(t);
+            self.row.iter().for_each(|x| self.results.number(*x));
             self.results.end_row()?;
         }
         Ok(())
@@ -75,14 +74,13 @@ impl Recorder {
     /// Writes the row of a step in iterations.csv; `seconds` is the step's wall time.
     pub fn iteration(&mut self, t: f64, info: &StepInfo, seconds: f64) -> Result<(), Error> {
         let table = &mut self.iterations;
-        table.number(t)?;
-        table.text(format_args!("{}", info.iterations))?;
-        table.number(info.residual)?;
-        table.number(info.contraction)?;
-        table.text(format_args!("{}", info.roll_backs))?;
-        table.text(format_args!("{}", info.halvings))?;
-        table.text(format_args!("{}", u8::from(info.outcome == Outcome::Converged)))?;
-        table.text(format_args!("{seconds:.6e}"))?;
+        table.number(t);
+        table.text(format_args!("{}", info.iterations));
+        table.number(info.residual);
+        table.number(info.contraction);
+        let converged = u8::from(info.outcome == Outcome::Converged);
+        table.text(format_args!("{},{},{converged}", info.roll_backs, info.halvings));
+        table.text(format_args!("{seconds:.6e}"));
         table.end_row()
     }
 
@@ -109,45 +107,41 @@ fn outputs(description: &ModelDescription, supports: bool, columns: &mut Vec<Col
     outputs.map(add).collect()
 }
 
-/// A CSV file written field by field through one reused buffer.
+/// A CSV file of numbers; rows are put together in one reused buffer.
 struct Table {
     path: PathBuf,
-    writer: Writer<BufWriter<File>>,
-    field: Vec<u8>,
+    file: BufWriter<File>,
+    row: Vec<u8>,
 }
 
 impl Table {
+    /// The header goes through the csv crate: foreign names may need quotes.
     fn create<'a>(path: &Path, header: impl Iterator<Item = &'a str>) -> Result<Self, Error> {
-        let file = File::create(path).map_err(Error::io(path))?;
-        let mut table = Self {
-            path: path.to_path_buf(),
-            writer: Writer::from_writer(BufWriter::new(file)),
-            field: Vec::with_capacity(32),
-        };
-        let written = table.writer.write_record(header);
-        table.check(written)?;
-        Ok(table)
+        let mut writer = csv::Writer::from_writer(Vec::new());
+        let written = writer.write_record(header).map_err(std::io::Error::from);
+        let head = written.and_then(|()| writer.into_inner().map_err(|e| e.into_error())).map_err(Error::io(path))?;
+        let mut file = BufWriter::new(File::create(path).map_err(Error::io(path))?);
+        file.write_all(&head).map_err(Error::io(path))?;
+        Ok(Self { path: path.to_path_buf(), file, row: Vec::new() })
     }
-    /// 17 significant digits: reading it back gives the same bits.
-    fn number(&mut self, x: f64) -> Result<(), Error> {
-        self.text(format_args!("{x:.16e}"))
+    /// A number with 17 significant digits: reading it back gives the same bits.
+    fn number(&mut self, x: f64) {
+        self.text(format_args!("{x:.16e}"));
     }
-    fn text(&mut self, text: std::fmt::Arguments) -> Result<(), Error> {
-        use std::io::Write;
-        self.field.clear();
+    fn text(&mut self, text: std::fmt::Arguments) {
+        if !self.row.is_empty() {
+            self.row.push(b',');
+        }
         // Writing to memory does not fail.
-        let _ = self.field.write_fmt(text);
-        let written = self.writer.write_field(&self.field);
-        self.check(written)
+        let _ = self.row.write_fmt(text);
     }
     fn end_row(&mut self) -> Result<(), Error> {
-        let written = self.writer.write_record(None::<&[u8]>);
-        self.check(written)
+        self.row.push(b'\n');
+        let written = self.file.write_all(&self.row);
+        self.row.clear();
+        written.map_err(Error::io(&self.path))
     }
     fn flush(&mut self) -> Result<(), Error> {
-        self.writer.flush().map_err(Error::io(&self.path))
-    }
-    fn check(&self, written: Result<(), csv::Error>) -> Result<(), Error> {
-        written.map_err(|e| Error::Io { path: self.path.clone(), source: e.into() })
+        self.file.flush().map_err(Error::io(&self.path))
     }
 }

@@ -33,6 +33,9 @@ pub fn run(arguments: &Run) -> Result<(), Error> {
     let stop = stop_on_interrupt();
     let begin = Instant::now();
     let mut connected = connect(&train_track, &bridge, &checked)?;
+    for warning in &connected.warnings[checked.warnings.len()..] {
+        eprintln!("ttb: warning: {warning}");
+    }
     let axis = TimeAxis::new(checked.train_track.step, checked.train_track.end);
     let output = &checked.scenario.output;
     let Connected { train_track, bridge, .. } = &mut connected;

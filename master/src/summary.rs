@@ -150,6 +150,9 @@ impl<'a> Summary<'a> {
             s.recording,
             s.initialization
         );
+        if i.not_converged > 0 {
+            println!("  NOT CONVERGED   {} of {} steps were accepted all the same", i.not_converged, i.steps);
+        }
         for peak in self.peaks.iter().filter(|p| p.name.starts_with("point[")) {
             let (factor, unit) = readable(&peak.unit);
             let (low, high) = (&peak.min, &peak.max);
@@ -170,7 +173,6 @@ impl<'a> Summary<'a> {
                 loss.wheel, loss.intervals, loss.seconds, loss.longest
             );
         }
-        self.warnings.iter().for_each(|w| println!("  warning: {w}"));
         println!("  results in {}", folder.display());
     }
 

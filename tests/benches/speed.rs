@@ -1,16 +1,20 @@
-//! Speed of whole runs without FMUs, as multiples of real time: `cargo bench -p ttb-tests --bench speed`.
+//! Speed of whole runs as multiples of real time, on the plain libraries and through the FMUs (results written):
+//! `cargo build --release && cargo bench -p ttb-tests --bench speed [-- EXAMPLE…]`.
 
 use std::ops::ControlFlow;
+use std::process::{Command, Stdio};
 use std::time::Instant;
 
 use ttb_coupling::Coupling;
 use ttb_coupling::iteration::IterationError;
 use ttb_coupling::run::{TimeAxis, run};
-use ttb_tests::{Pair, example, pair, settings};
+use ttb_tests::{Pair, example, examples, pair, settings, ttb};
 
 fn main() {
-    for name in ["r1.json", "default.json"] {
-        let checked = example(name);
+    let chosen: Vec<String> = std::env::args().skip(1).filter(|a| a.ends_with(".json")).collect();
+    let all = ["r1.json", "default.json"].map(String::from).to_vec();
+    for name in if chosen.is_empty() { all } else { chosen } {
+        let checked = example(&name);
         let axis = TimeAxis::new(checked.train_track.step, checked.train_track.end);
         let mut best = f64::INFINITY;
         let (mut start, mut iterations) = (0.0, 0);
@@ -31,10 +35,27 @@ fn main() {
         }
         let (steps, end) = (axis.steps() as f64, checked.train_track.end);
         println!(
-            "{name}: {:.1} µs a step, {:.2} trials a step, {:.1} × real time; start {start:.2} s",
+            "{name}, libraries: {:.1} µs a step, {:.2} trials a step, {:.1} × real time; start {start:.2} s",
             1e6 * best / steps,
             iterations as f64 / steps,
             end / best
         );
+        let mut factors: Vec<f64> = (0..5).map(|_| through_fmus(&name)).collect();
+        factors.sort_by(f64::total_cmp);
+        println!(
+            "{name}, FMUs: {:.1} … {:.1} … {:.1} × real time (least, median, most of 5)",
+            factors[0], factors[2], factors[4]
+        );
     }
+}
+
+/// How many times faster than real time the steps of `ttb run` were.
+fn through_fmus(name: &str) -> f64 {
+    let folder = tempfile::tempdir().expect("temporary folder");
+    let mut command = Command::new(ttb());
+    command.arg("run").arg(examples().join(name)).arg("--output").arg(folder.path()).arg("--quiet");
+    assert!(command.stderr(Stdio::null()).status().expect("ttb runs").success());
+    let text = std::fs::read_to_string(folder.path().join("summary.json")).expect("summary.json");
+    let summary: serde_json::Value = serde_json::from_str(&text).expect("JSON");
+    summary["times_faster_than_real_time"].as_f64().expect("number")
 }

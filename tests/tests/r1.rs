@@ -2,11 +2,10 @@
 //! independent codes, against the monolithic solution, and against the run through the FMUs.
 
 use std::collections::HashMap;
-use std::path::PathBuf;
 use std::process::Command;
 
 use ttb_scenario::Checked;
-use ttb_tests::{Table, example, examples, library_run};
+use ttb_tests::{Table, example, examples, library_run, ttb};
 
 /// Printed peaks: mid-span mm (t s), mid-span acceleration, car acceleration, contact force of wheel 1 in kN.
 struct Printed {
@@ -135,14 +134,6 @@ fn also_with_three_layers_timoshenko_rail_local_compliance_and_a_light_bridge() 
     let ttb_scenario::spec::StructureSpec::Beams { spans, .. } = &mut checked.bridge.structure else { panic!("beams") };
     (spans[0].mass, spans[0].bending_stiffness) = (3000.0, 4.4e10);
     compare_with_monolithic(checked);
-}
-
-/// The program that `cargo build --release` left beside this test.
-fn ttb() -> PathBuf {
-    let test = std::env::current_exe().expect("path of the test");
-    let program = test.ancestors().nth(2).expect("target folder").join("ttb");
-    assert!(program.is_file(), "{} is missing: run tests/run, or cargo build in this profile first", program.display());
-    program
 }
 
 #[test]

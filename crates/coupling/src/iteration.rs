@@ -48,7 +48,7 @@ pub struct Settings {
     pub tolerance: f64,
     /// One axle load, N.
     pub force_scale: f64,
-    /// k_max; 1 means one pass, without saving or restoring.
+    /// k_max; 1 means one pass, without saving or restoring: bridge first, under the extrapolated forces.
     pub max_iterations: usize,
     /// Send forces as held means even to a bridge that can interpolate.
     pub hold_forces: bool,
@@ -219,13 +219,17 @@ impl Coupling {
         let info = self.try_step(train_track, bridge, t, h)?;
         let policy = self.settings.on_failure;
         if info.outcome == Outcome::Converged || policy == OnFailure::Accept {
-            self.forces.accept(&self.lambda, h);
+            // In one pass nothing but the answer carries the train's forces into the next step.
+            let one_pass = self.settings.max_iterations == 1;
+            self.forces.accept(if one_pass { &self.answer } else { &self.lambda }, h);
             std::mem::swap(&mut self.motion_now, &mut self.motion);
             return Ok(info);
         }
-        train_track.restore()?;
-        bridge.restore()?;
-        if policy == OnFailure::Stop || depth == HALVINGS {
+        if self.settings.max_iterations > 1 {
+            train_track.restore()?;
+            bridge.restore()?;
+        }
+        if policy == OnFailure::Stop || depth == HALVINGS || self.settings.max_iterations == 1 {
             return Err(IterationError::NotConverged { t, h, info });
         }
         let first = self.step_or_halve(train_track, bridge, t, 0.5 * h, depth + 1)?;

@@ -1,7 +1,6 @@
 //! Symmetric banded matrices: a rail on its supports, numbered along the track, has a half bandwidth of three to seven.
 //!
-//! A = L D Lᵀ with unit lower L. Forward and backward substitution are one short recurrence each, bound by the latency of
-//! a multiplication and a subtraction a row; the usual bandwidths get loops of constant length.
+//! A = L D Lᵀ with unit lower L.
 
 use thiserror::Error;
 
@@ -36,6 +35,11 @@ impl Band {
     pub fn half_bandwidth(&self) -> usize {
         self.b
     }
+    /// Entry (i, j) within the band.
+    pub fn get(&self, i: usize, j: usize) -> f64 {
+        let (i, j) = (i.max(j), i.min(j));
+        self.rows[i * (self.b + 1) + self.b - (i - j)]
+    }
     /// Adds `value` to the entry (i, j); the mirrored entry is the same storage, so give each pair once.
     pub fn add(&mut self, i: usize, j: usize, value: f64) {
         let (i, j) = (i.max(j), i.min(j));
@@ -48,11 +52,6 @@ impl Band {
                 self.add(*p, *q, *value);
             }
         }
-    }
-    /// self + factor · other, same shape.
-    pub fn plus(&self, factor: f64, other: &Band) -> Band {
-        let rows = self.rows.iter().zip(&other.rows).map(|(a, b)| a + factor * b).collect();
-        Band { rows, ..*self }
     }
     /// y += A x.
     pub fn multiply_add(&self, x: &[f64], y: &mut [f64]) {
@@ -98,26 +97,18 @@ impl Band {
             }
             inverse[i] = 1.0 / d;
         }
-        let mut columns = vec![0.0; self.n * b];
-        for i in 0..self.n {
-            for k in 1..=b.min(self.n - 1 - i) {
-                columns[i * b + k - 1] = self.rows[(i + k) * w + b - k];
-            }
-        }
         let rows = self.rows.chunks_exact(w).flat_map(|row| &row[..b]).copied().collect();
-        Ok(BandFactor { n: self.n, b, rows, columns, inverse })
+        Ok(BandFactor { n: self.n, b, rows, inverse })
     }
 }
 
-/// L and 1/D of a [`Band`]; L by columns for the forward, by rows for the backward substitution.
+/// L and 1/D of a [`Band`], for set-up; [`crate::twisted::TwistedFactor`] is its like for the step loop.
 #[derive(Clone, Debug)]
 pub struct BandFactor {
     n: usize,
     b: usize,
     /// Row i: l_{i,i−b} … l_{i,i−1}.
     rows: Vec<f64>,
-    /// Row i: l_{i+1,i} … l_{i+b,i}.
-    columns: Vec<f64>,
     inverse: Vec<f64>,
 }
 
@@ -130,64 +121,30 @@ impl BandFactor {
     /// Solves the part of the system from row `from` to row `to` as if the rest did not exist; with a right-hand side that
     /// is zero before `from` and a solution that has decayed at `to`, rows `from..to` are those of A⁻¹ x.
     pub fn solve_range(&self, x: &mut [f64], from: usize, to: usize) {
-        match self.b {
-            1 => self.solve_fixed::<1>(x, from, to),
-            2 => self.solve_fixed::<2>(x, from, to),
-            3 => self.solve_fixed::<3>(x, from, to),
-            4 => self.solve_fixed::<4>(x, from, to),
-            5 => self.solve_fixed::<5>(x, from, to),
-            6 => self.solve_fixed::<6>(x, from, to),
-            7 => self.solve_fixed::<7>(x, from, to),
-            8 => self.solve_fixed::<8>(x, from, to),
-            b => self.solve_any(b, x, from, to),
-        }
-    }
-
-    /// What a found unknown takes off the next B right-hand sides is added up in registers, so that a row waits for one
-    /// product and one sum only: twice as fast as dot products with the last B unknowns.
-    fn solve_fixed<const B: usize>(&self, x: &mut [f64], from: usize, to: usize) {
-        let (rows, _) = self.rows.as_chunks::<B>();
-        let (columns, _) = self.columns.as_chunks::<B>();
-        let mut owed = [0.0; B];
-        for ((x, column), inverse) in x[from..to].iter_mut().zip(&columns[from..to]).zip(&self.inverse[from..to]) {
-            let y = *x - owed[0];
-            for k in 1..B {
-                owed[k - 1] = owed[k] + column[k - 1] * y;
-            }
-            owed[B - 1] = column[B - 1] * y;
-            *x = y * inverse;
-        }
-        let mut owed = [0.0; B];
-        for (x, row) in x[from..to].iter_mut().zip(&rows[from..to]).rev() {
-            let y = *x - owed[0];
-            for k in 1..B {
-                owed[k - 1] = owed[k] + row[B - k] * y;
-            }
-            owed[B - 1] = row[0] * y;
-            *x = y;
-        }
-    }
-
-    fn solve_any(&self, b: usize, x: &mut [f64], from: usize, to: usize) {
+        let coefficients = |i: usize| {
+            let first = i.saturating_sub(self.b).max(from);
+            (first, &self.rows[i * self.b + self.b - (i - first)..(i + 1) * self.b])
+        };
         for i in from..to {
-            let first = i.saturating_sub(b).max(from);
-            let row = &self.rows[i * b + b - (i - first)..(i + 1) * b];
+            let (first, row) = coefficients(i);
             let sum: f64 = row.iter().zip(&x[first..i]).map(|(l, y)| l * y).sum();
             x[i] -= sum;
         }
+        x[from..to].iter_mut().zip(&self.inverse[from..to]).for_each(|(x, inverse)| *x *= inverse);
         for i in (from..to).rev() {
-            let column = &self.columns[i * b..i * b + b.min(to - 1 - i)];
-            let sum: f64 = column.iter().zip(&x[i + 1..]).map(|(l, y)| l * y).sum();
-            x[i] = x[i] * self.inverse[i] - sum;
+            let (first, row) = coefficients(i);
+            let (before, xi) = x.split_at_mut(i);
+            before[first..].iter_mut().zip(row).for_each(|(y, l)| *y -= l * xi[0]);
         }
     }
 }
 
 #[cfg(test)]
-mod tests {
+pub(crate) mod tests {
     use super::*;
 
-    fn random(n: usize, b: usize) -> Band {
+    /// A diagonally dominant band of reproducible numbers.
+    pub(crate) fn random(n: usize, b: usize) -> Band {
         let mut a = Band::zeros(n, b);
         let mut seed = 1u64;
         let mut next = || {
@@ -223,11 +180,8 @@ mod tests {
 
     #[test]
     fn a_window_of_the_inverse_is_exact_where_the_solution_has_decayed() {
-        let a = random(200, 3).plus(20.0, &{
-            let mut d = Band::zeros(200, 3);
-            (0..200).for_each(|i| d.add(i, i, 1.0));
-            d
-        });
+        let mut a = random(200, 3);
+        (0..200).for_each(|i| a.add(i, i, 20.0));
         let factor = a.factorise().unwrap();
         let (mut whole, mut window) = (vec![0.0; 200], vec![0.0; 200]);
         (whole[90], window[90]) = (1.0, 1.0);

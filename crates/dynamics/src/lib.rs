@@ -11,4 +11,5 @@ pub mod modes;
 pub mod newmark;
 pub mod pool;
 pub mod sparse;
+pub mod twisted;
 pub mod vector;

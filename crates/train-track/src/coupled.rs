@@ -18,8 +18,8 @@
 use std::ops::Range;
 use std::sync::Arc;
 
-use ttb_dynamics::band::BandFactor;
 use ttb_dynamics::newmark::{Motion, Newmark};
+use ttb_dynamics::twisted::TwistedFactor;
 
 use crate::car::{AXLES, Car, DOFS, FIRST_WHEEL, Matrix10, Vector10};
 use crate::compliance::RailCompliance;
@@ -77,7 +77,7 @@ impl State {
 pub struct StepMatrices {
     /// Newmark's constants.
     pub newmark: Newmark,
-    track: BandFactor,
+    track: TwistedFactor,
     compliance: RailCompliance,
     cars: Vec<Matrix10>,
 }
@@ -159,8 +159,10 @@ impl TrainTrackSystem {
     /// # Errors
     /// A matrix that is not positive definite, as a message.
     pub fn matrices(&self, newmark: Newmark) -> Result<StepMatrices, String> {
-        let track = self.track.factorise(newmark.a[0], newmark.a[1]).map_err(|e| format!("track: {e}"))?;
-        let compliance = RailCompliance::new(&self.track, &track);
+        let effective = self.track.effective(newmark.a[0], newmark.a[1]);
+        let not_held = |e| format!("track: {e}");
+        let compliance = RailCompliance::new(&self.track, &effective.clone().factorise().map_err(not_held)?);
+        let track = TwistedFactor::new(effective).map_err(not_held)?;
         let cars: Option<Vec<_>> = self.cars.iter().map(|c| c.effective_inverse(&newmark)).collect();
         let cars = cars.ok_or("a car's Newmark matrix is not positive definite: check its masses and stiffnesses")?;
         Ok(StepMatrices { newmark, track, compliance, cars })

@@ -147,7 +147,7 @@ impl Model for TrainTrack {
         let seed = get(Parameter::IrregularitySeed) as u64;
         let way = [spec.front_wheel - pre_roll, track.extent().1];
         let irregularity = Irregularity::new(&spec.irregularity, spec.irregularity_scale, way, Some(seed));
-        let statics = track.factorise(0.0, 0.0).map_err(|e| error(format!("track at rest: {e}")))?;
+        let statics = track.effective(0.0, 0.0).factorise().map_err(|e| error(format!("track at rest: {e}")))?;
         let (n, supports) = (track.order(), track.bridge_supports());
         let system = TrainTrackSystem::new(track, cars, Contacts::new(laws), spec.front_wheel, running, irregularity);
         let steps = vec![system.matrices(newmark).map_err(error)?];

@@ -9,8 +9,8 @@
 //! The lowest spring ("base") belongs to the track: it receives the deck's motion d, ḋ and returns the support force
 //! k(u − d) + c(u̇ − ḋ), positive down on the deck. On the ground d = 0.
 
-use ttb_dynamics::band::{Band, BandFactor, NotPositiveDefinite};
-use ttb_dynamics::beam::Beam;
+use ttb_dynamics::band::Band;
+use ttb_dynamics::beam::{Beam, Matrix4};
 use ttb_dynamics::newmark::{Motion, Newmark};
 use ttb_scenario::spec::TrainTrackSpec;
 use ttb_scenario::types::{Spring, Support};
@@ -42,7 +42,13 @@ pub struct Track {
     layers: usize,
     beam: Beam,
     local_compliance: bool,
-    mass: Band,
+    /// Deflection of every rail node.
+    nodes: Vec<usize>,
+    /// Consistent mass of a rail element, and the masses below the rail by degree of freedom.
+    element_mass: Matrix4,
+    lumped: Vec<(usize, f64)>,
+    order: usize,
+    half_bandwidth: usize,
     links: Vec<Link>,
     base: Spring,
     on_bridge: Vec<usize>,
@@ -94,21 +100,21 @@ impl Track {
             layers,
             beam,
             local_compliance: spec.local_compliance,
-            mass: Band::zeros(n, half_bandwidth),
+            nodes: Vec::new(),
+            element_mass: beam.mass_matrix(spec.track.spacing / per_bay as f64),
+            lumped: Vec::new(),
+            order: n,
+            half_bandwidth,
             links: Vec::new(),
             base: springs[layers],
             on_bridge: spec.on_bridge.clone(),
         };
-        let mass = beam.mass_matrix(track.element_length);
-        for e in 0..track.elements {
-            let dofs = track.element_dofs(e);
-            track.mass.add_element(&dofs, &mass);
-        }
+        track.nodes = (0..=track.elements).map(|node| track.number_of(node)).collect();
         for support in 0..=bays {
             let rail = track.node_dof(support * per_bay);
             for (layer, mass) in masses.iter().enumerate() {
                 let dof = rail + 2 + layer;
-                track.mass.add(dof, dof, *mass);
+                track.lumped.push((dof, *mass));
                 let above = if layer == 0 { rail } else { dof - 1 };
                 track.links.push(Link { dofs: [above, dof], spring: springs[layer] });
             }
@@ -122,7 +128,7 @@ impl Track {
 
     /// Number of degrees of freedom.
     pub fn order(&self) -> usize {
-        self.mass.order()
+        self.order
     }
     /// Number of rail nodes.
     pub fn nodes(&self) -> usize {
@@ -138,6 +144,10 @@ impl Track {
     }
     /// Deflection of a rail node; the rotation is the next one.
     pub fn node_dof(&self, node: usize) -> usize {
+        self.nodes[node]
+    }
+    /// The numbering: bay by bay its first node, what stands below it, its inner nodes.
+    fn number_of(&self, node: usize) -> usize {
         let (bay, inner) = (node / self.elements_per_bay, node % self.elements_per_bay);
         let stride = 2 * self.elements_per_bay + self.layers;
         bay * stride + if inner == 0 { 0 } else { 2 * inner + self.layers }
@@ -177,15 +187,16 @@ impl Track {
         dofs.iter().zip(point.row).for_each(|(d, n)| f[*d] += n * force);
     }
 
-    /// Factor of K + a_M M + a_C C: the static matrix for a_M = a_C = 0, Newmark's for a₀, a₁.
-    ///
-    /// # Errors
-    /// A track that is not held.
-    pub fn factorise(&self, mass_factor: f64, damping_factor: f64) -> Result<BandFactor, NotPositiveDefinite> {
-        let mut matrix = Band::zeros(self.order(), self.mass.half_bandwidth()).plus(mass_factor, &self.mass);
-        let stiffness = self.beam.stiffness(self.element_length);
+    /// K + a_M M + a_C C: the static matrix for a_M = a_C = 0, Newmark's for a₀, a₁.
+    pub fn effective(&self, mass_factor: f64, damping_factor: f64) -> Band {
+        let mut matrix = Band::zeros(self.order, self.half_bandwidth);
+        let (k, m) = (self.beam.stiffness(self.element_length), self.element_mass);
+        let element = std::array::from_fn(|i| std::array::from_fn(|j| k[i][j] + mass_factor * m[i][j]));
         for e in 0..self.elements {
-            matrix.add_element(&self.element_dofs(e), &stiffness);
+            matrix.add_element(&self.element_dofs(e), &element);
+        }
+        for (dof, mass) in &self.lumped {
+            matrix.add(*dof, *dof, mass_factor * mass);
         }
         let effective = |s: &Spring| s.stiffness + damping_factor * s.damping;
         for link in &self.links {
@@ -198,7 +209,25 @@ impl Track {
             let dof = self.base_dof(support);
             matrix.add(dof, dof, effective(&self.base));
         }
-        matrix.factorise()
+        matrix
+    }
+
+    /// y = M x, element by element along the rail; a node's share from the element behind is carried on.
+    fn multiply_mass(&self, x: &[f64], y: &mut [f64]) {
+        let m = &self.element_mass;
+        let mut carried = [0.0; 2];
+        for nodes in self.nodes.windows(2) {
+            let (a, b) = (nodes[0], nodes[1]);
+            let q = [x[a], x[a + 1], x[b], x[b + 1]];
+            let row = |i: usize| m[i][0] * q[0] + m[i][1] * q[1] + m[i][2] * q[2] + m[i][3] * q[3];
+            (y[a], y[a + 1]) = (carried[0] + row(0), carried[1] + row(1));
+            carried = [row(2), row(3)];
+        }
+        let last = self.nodes[self.elements];
+        (y[last], y[last + 1]) = (carried[0], carried[1]);
+        for (dof, mass) in &self.lumped {
+            y[*dof] = mass * x[*dof];
+        }
     }
 
     /// p = M (a₀u + a₂u̇ + a₃ü) + C (a₁u + a₄u̇ + a₅ü); `work` is scratch of the same length.
@@ -207,8 +236,7 @@ impl Track {
         for (w, ((u, v), a)) in work.iter_mut().zip(terms()) {
             *w = newmark.inertia(*u, *v, *a);
         }
-        p.fill(0.0);
-        self.mass.multiply_add(work, p);
+        self.multiply_mass(work, p);
         let damping = |i: usize| newmark.damping(old.u[i], old.v[i], old.a[i]);
         for link in &self.links {
             let [i, j] = link.dofs;

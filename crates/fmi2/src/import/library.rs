@@ -35,7 +35,7 @@ pub enum LibraryError {
 /// The library of an FMU built with PythonFMU takes its Python from the process.
 fn hint(message: &str) -> &'static str {
     if message.contains("undefined symbol: _Py") || message.contains("undefined symbol: Py") {
-        "; load Python first: --preload libpython3.11.so.1.0 (the version the FMU was built for)"
+        "; start the program with LD_PRELOAD=libpython3.11.so.1.0 (the version the FMU was built for)"
     } else {
         ""
     }

@@ -70,9 +70,9 @@ pub(super) fn time(time: &Time, report: &mut Report) {
 
 /// Below the limit of unconditional stability the stiffest element would have to set the step.
 pub(super) fn newmark(newmark: &Newmark, report: &mut Report) {
-    let limit = 0.25 * (newmark.gamma + 0.5).powi(2);
+    let limit = 0.5 * newmark.gamma;
     if newmark.beta < limit * (1.0 - 1e-12) {
-        let rule = format!("β must be at least (γ + 1/2)²/4 = {limit} (unconditional stability)");
+        let rule = format!("β must be at least γ/2 = {limit} (unconditional stability)");
         report.problem("$.time.newmark.beta", rule, newmark.beta);
     }
 }

@@ -71,7 +71,8 @@ pub enum Irregularity {
         /// Name of a bundled spectrum, such as `german-low`.
         #[schemars(extend("enum" = spectrum_names().collect::<Vec<_>>()))]
         spectrum: String,
-        /// Seed of the random phases.
+        /// Seed of the random phases; an FMI Integer holds it.
+        #[schemars(range(min = 0, max = 2147483647))]
         seed: u64,
         /// Shortest and longest wavelength, m.
         wavelengths: [f64; 2],

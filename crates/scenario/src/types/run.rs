@@ -16,7 +16,7 @@ pub struct Newmark {
     /// γ ≥ 1/2.
     #[schemars(range(min = 0.5, max = 1))]
     pub gamma: f64,
-    /// β > 0; unconditionally stable for β ≥ (γ + 1/2)²/4.
+    /// β > 0; unconditionally stable for β ≥ γ/2; (γ + 1/2)²/4 damps high frequencies most.
     #[schemars(extend("exclusiveMinimum" = 0), range(max = 1))]
     pub beta: f64,
 }
@@ -68,10 +68,10 @@ pub enum Predictor {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Send {
-    /// As rate where both FMUs declare canInterpolateInputs, else as mean.
+    /// As rate to a bridge that declares canInterpolateInputs, else as mean.
     #[default]
     Auto,
-    /// λ_n and the derivative (λ − λ_n)/h.
+    /// λ_n and the derivative (λ − λ_n)/h; refused where the bridge cannot interpolate.
     Rate,
     /// The held mean (λ_n + λ)/2.
     Mean,

@@ -89,10 +89,7 @@ fn faults_between_fields_are_all_found() {
             case(
                 "unstable Newmark",
                 &[("/time/newmark", "{\"gamma\": 0.6, \"beta\": 0.25}")],
-                &[(
-                    "$.time.newmark.beta",
-                    "β must be at least (γ + 1/2)²/4 = 0.30250000000000005 (unconditional stability)",
-                )],
+                &[("$.time.newmark.beta", "β must be at least γ/2 = 0.3 (unconditional stability)")],
             ),
             case(
                 "equal Rayleigh frequencies",
