@@ -1,5 +1,13 @@
 //! `ttb`: builds, couples and runs the two FMUs. Only this crate prints; exit codes are those of [`error::Error::code`].
 
+/// Prints a line; a reader that has gone away (`ttb schema | head`) is no error.
+macro_rules! say {
+    ($($text:tt)*) => {{
+        use std::io::Write;
+        let _ = writeln!(std::io::stdout(), $($text)*);
+    }};
+}
+
 mod build;
 mod cli;
 mod connect;
@@ -32,13 +40,13 @@ fn execute(command: Command) -> Result<(), Error> {
         Command::Build(arguments) => {
             let checked = build::scenario(arguments.scenario.as_deref())?;
             let built = build::build(&checked, &arguments.output)?;
-            println!("{}\n{}", built.train_track.display(), built.bridge.display());
+            say!("{}\n{}", built.train_track.display(), built.bridge.display());
             Ok(())
         }
         Command::CheckScenario { scenario } => {
             let checked = build::scenario(Some(&scenario))?;
             let supports = checked.bridge.supports.len();
-            println!(
+            say!(
                 "{}: no problems; {} cars, {supports} supports on the bridge",
                 scenario.display(),
                 checked.train_track.cars.len()
@@ -46,7 +54,7 @@ fn execute(command: Command) -> Result<(), Error> {
             Ok(())
         }
         Command::Schema => {
-            println!("{:#}", ttb_scenario::schema());
+            say!("{:#}", ttb_scenario::schema());
             Ok(())
         }
     }

@@ -136,11 +136,11 @@ impl<'a> Summary<'a> {
 
     /// A short summary for people.
     pub fn print(&self, folder: &Path) {
-        println!("{}", self.title);
+        say!("{}", self.title);
         let (i, s) = (self.iterations, self.seconds);
-        println!("  {} steps of {} s to t = {} s: {}", i.steps, self.step_s, self.reached_s, self.status);
-        println!("  iterations      mean {:.2}, max {}, residual ≤ {:.1e}", i.mean, i.max, i.max_residual);
-        println!(
+        say!("  {} steps of {} s to t = {} s: {}", i.steps, self.step_s, self.reached_s, self.status);
+        say!("  iterations      mean {:.2}, max {}, residual ≤ {:.1e}", i.mean, i.max, i.max_residual);
+        say!(
             "  seconds         {:.2} stepping ({:.1} × real time): train–track {:.2}, bridge {:.2}, master {:.3}, results {:.2}; start {:.2}",
             s.stepping,
             self.times_faster_than_real_time,
@@ -151,12 +151,12 @@ impl<'a> Summary<'a> {
             s.initialization
         );
         if i.not_converged > 0 {
-            println!("  NOT CONVERGED   {} of {} steps were accepted all the same", i.not_converged, i.steps);
+            say!("  NOT CONVERGED   {} of {} steps were accepted all the same", i.not_converged, i.steps);
         }
         for peak in self.peaks.iter().filter(|p| p.name.starts_with("point[")) {
             let (factor, unit) = readable(&peak.unit);
             let (low, high) = (&peak.min, &peak.max);
-            println!(
+            say!(
                 "  {:<34} {:>10.4} … {:<10.4} {unit}, at t = {:.3} s and {:.3} s",
                 peak.name,
                 low.value * factor,
@@ -168,12 +168,15 @@ impl<'a> Summary<'a> {
         self.print_over("car[", "].acceleration", "car bodies, acceleration");
         self.print_over("wheel[", "].contact_force", "wheelsets, contact force");
         for loss in &self.contact_losses {
-            println!(
+            say!(
                 "  wheel {} lost contact {} times, {:.4} s in all, {:.4} s at most",
-                loss.wheel, loss.intervals, loss.seconds, loss.longest
+                loss.wheel,
+                loss.intervals,
+                loss.seconds,
+                loss.longest
             );
         }
-        println!("  results in {}", folder.display());
+        say!("  results in {}", folder.display());
     }
 
     /// Extremes over all variables of a kind.
@@ -184,7 +187,7 @@ impl<'a> Summary<'a> {
         if let (Some(low), Some(high)) = (low, high) {
             let (factor, unit) = readable(&low.unit);
             let (a, b) = (low.min.value * factor, high.max.value * factor);
-            println!("  {text:<34} {a:>10.4} … {b:<10.4} {unit}, at {} and {}", low.name, high.name);
+            say!("  {text:<34} {a:>10.4} … {b:<10.4} {unit}, at {} and {}", low.name, high.name);
         }
     }
 }

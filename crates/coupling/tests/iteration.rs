@@ -1,0 +1,155 @@
+//! The iteration on two scalar subsystems with known answers.
+
+use ttb_coupling::iteration::{IterationError, OnFailure, Outcome, Settings};
+use ttb_coupling::predictor::Predictor;
+use ttb_coupling::{Coupling, Failure, Subsystem};
+
+/// Answers `constant(t) + gain · (input at the end of the step)`; counts what it was asked.
+struct Line {
+    gain: f64,
+    constant: fn(f64) -> f64,
+    interpolates: bool,
+    input: f64,
+    rate: f64,
+    output: f64,
+    saved: f64,
+    roll_backs: usize,
+    steps: Vec<(f64, f64)>,
+}
+
+impl Line {
+    fn new(gain: f64, constant: fn(f64) -> f64) -> Self {
+        let (input, rate, output, saved) = (0.0, 0.0, 0.0, 0.0);
+        Self { gain, constant, interpolates: true, input, rate, output, saved, roll_backs: 0, steps: Vec::new() }
+    }
+}
+
+impl Subsystem for Line {
+    fn set_inputs(&mut self, values: &[f64], rates: Option<&[f64]>) -> Result<(), Failure> {
+        (self.input, self.rate) = (values[0], rates.map_or(0.0, |r| r[0]));
+        if self.steps.is_empty() {
+            self.output = (self.constant)(0.0) + self.gain * self.input;
+        }
+        Ok(())
+    }
+    fn get_outputs(&mut self, outputs: &mut [f64]) -> Result<(), Failure> {
+        outputs[0] = self.output;
+        Ok(())
+    }
+    fn exit_initialization(&mut self) -> Result<(), Failure> {
+        Ok(())
+    }
+    fn step(&mut self, t: f64, h: f64, _may_restore: bool) -> Result<(), Failure> {
+        self.steps.push((t, h));
+        self.output = (self.constant)(t + h) + self.gain * (self.input + h * self.rate);
+        Ok(())
+    }
+    fn save(&mut self) -> Result<(), Failure> {
+        self.saved = self.output;
+        Ok(())
+    }
+    fn restore(&mut self) -> Result<(), Failure> {
+        self.roll_backs += 1;
+        self.output = self.saved;
+        Ok(())
+    }
+    fn can_interpolate(&self) -> bool {
+        self.interpolates
+    }
+}
+
+fn settings() -> Settings {
+    Settings {
+        aitken: true,
+        predictor: Predictor::Linear,
+        tolerance: 1e-12,
+        force_scale: 1.0,
+        max_iterations: 30,
+        hold_forces: false,
+        on_failure: OnFailure::Stop,
+    }
+}
+
+/// λ = load(t) − ρ λ, so λ = load/(1 + ρ).
+fn pair(rho: f64) -> (Line, Line) {
+    (Line::new(-rho, |t| 100.0 * (1.0 + t * t)), Line::new(1.0, |_| 0.0))
+}
+
+#[test]
+fn every_step_ends_on_the_known_force() {
+    let (mut train_track, mut bridge) = pair(0.4);
+    let mut coupling = Coupling::new(1, 1, settings());
+    coupling.initialise(&mut train_track, &mut bridge, 0.0).unwrap();
+    assert!((coupling.forces()[0] - 100.0 / 1.4).abs() < 1e-9);
+    for n in 0..20 {
+        let t = f64::from(n) * 0.1;
+        let info = coupling.step(&mut train_track, &mut bridge, t, 0.1).unwrap();
+        let exact = 100.0 * (1.0 + (t + 0.1).powi(2)) / 1.4;
+        assert_eq!(info.outcome, Outcome::Converged);
+        assert!((coupling.forces()[0] / exact - 1.0).abs() < 1e-10, "{} {exact}", coupling.forces()[0]);
+        assert_eq!(info.roll_backs, info.iterations - 1);
+    }
+    // One restored state more than trials repeated: also before the first trial of a step.
+    assert_eq!(bridge.roll_backs, bridge.steps.len());
+}
+
+#[test]
+fn a_subsystem_that_cannot_interpolate_gets_the_mean() {
+    let (mut train_track, mut bridge) = pair(0.0);
+    bridge.interpolates = false;
+    let mut coupling = Coupling::new(1, 1, settings());
+    coupling.initialise(&mut train_track, &mut bridge, 0.0).unwrap();
+    coupling.step(&mut train_track, &mut bridge, 0.0, 1.0).unwrap();
+    assert_eq!((bridge.input, bridge.rate), (150.0, 0.0));
+}
+
+#[test]
+fn a_step_that_does_not_converge_follows_the_policy() {
+    // Two trials do not suffice for Aitken here.
+    let run = |on_failure: OnFailure| {
+        let (mut train_track, mut bridge) = pair(0.4);
+        let mut coupling = Coupling::new(1, 1, Settings { max_iterations: 2, on_failure, ..settings() });
+        coupling.initialise(&mut train_track, &mut bridge, 0.0).unwrap();
+        let result = coupling.step(&mut train_track, &mut bridge, 0.0, 1.0);
+        (result, bridge.steps)
+    };
+    let (stopped, _) = run(OnFailure::Stop);
+    assert!(matches!(stopped, Err(IterationError::NotConverged { t: 0.0, h: 1.0, .. })));
+    let (accepted, steps) = run(OnFailure::Accept);
+    assert_eq!(accepted.unwrap().outcome, Outcome::IterationLimit);
+    assert_eq!(steps.len(), 2);
+    // Halving does not help an iteration whose contraction does not depend on the step: it ends at a sixteenth.
+    let (halved, steps) = run(OnFailure::Halve);
+    assert!(matches!(halved, Err(IterationError::NotConverged { h: 0.0625, .. })));
+    assert_eq!(steps.last(), Some(&(0.0, 0.0625)));
+}
+
+#[test]
+fn one_pass_neither_saves_nor_restores_and_carries_the_answer_on() {
+    let (mut train_track, mut bridge) = pair(0.01);
+    let one_pass = Settings { max_iterations: 1, on_failure: OnFailure::Accept, ..settings() };
+    let mut coupling = Coupling::new(1, 1, one_pass);
+    coupling.initialise(&mut train_track, &mut bridge, 0.0).unwrap();
+    for n in 0..100 {
+        coupling.step(&mut train_track, &mut bridge, f64::from(n) * 0.01, 0.01).unwrap();
+    }
+    assert_eq!((train_track.roll_backs, bridge.roll_backs), (0, 0));
+    let exact = 200.0 / 1.01;
+    assert!((coupling.forces()[0] / exact - 1.0).abs() < 1e-3, "{} {exact}", coupling.forces()[0]);
+    let mut stopping = Coupling::new(1, 1, Settings { on_failure: OnFailure::Stop, ..one_pass });
+    let (mut train_track, mut bridge) = pair(0.01);
+    stopping.initialise(&mut train_track, &mut bridge, 0.0).unwrap();
+    let stopped = stopping.step(&mut train_track, &mut bridge, 0.0, 0.01);
+    assert!(matches!(stopped, Err(IterationError::NotConverged { .. })));
+}
+
+#[test]
+fn a_force_that_is_no_number_stops_the_run_at_its_step() {
+    let (mut train_track, mut bridge) =
+        (Line::new(0.0, |t| if t > 0.5 { f64::NAN } else { 1.0 }), Line::new(1.0, |_| 0.0));
+    let mut coupling = Coupling::new(1, 1, settings());
+    coupling.initialise(&mut train_track, &mut bridge, 0.0).unwrap();
+    coupling.step(&mut train_track, &mut bridge, 0.0, 0.5).unwrap();
+    let stopped = coupling.step(&mut train_track, &mut bridge, 0.5, 0.5);
+    assert_eq!(stopped, Err(IterationError::NotFinite { t: 0.5 }));
+}

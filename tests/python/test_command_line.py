@@ -1,0 +1,149 @@
+"""The program's commands and exit codes: 0 ok, 2 bad input, 3 not converged, 4 an FMU failed, 5 I/O, 130 interrupted."""
+
+import csv
+import json
+import signal
+import subprocess
+import time
+
+import pytest
+from scenario import changed
+from spoil import DESCRIPTION, copy, replaced
+
+BROKEN = {
+    "train.speed": {"km_h": -250},
+    "train.colour": "red",
+    "track.bays": "many",
+    "bridge.points": [{"name": "mid", "x": 99}],
+    "time.step": 0,
+}
+
+
+def summary(folder):
+    return json.loads((folder / "summary.json").read_text())
+
+
+def test_help_teaches_the_exit_codes_and_every_command(ttb):
+    """--help is where a user looks first."""
+    said = " ".join(ttb("--help").stdout.split())
+    codes = ["0 ok", "2 bad input", "3 not converged", "4 an FMU failed", "5 input/output", "130 interrupted, results kept"]
+    assert [code for code in codes if code not in said] == []
+    for command in ("run", "build", "check-scenario", "schema"):
+        assert command in said
+        assert "Usage: ttb" in ttb(command, "--help").stdout
+
+
+@pytest.mark.parametrize("arguments", [[], ["frobnicate"], ["run", "--frobnicate"], ["check-scenario"]])
+def test_a_wrong_command_is_bad_input(ttb, arguments):
+    """Exit code 2 and how to use it."""
+    assert "Usage" in ttb(*arguments, expect=2).stderr
+
+
+def test_the_schema_is_json_and_names_what_the_examples_use(ttb, examples):
+    """`ttb schema`: a JSON Schema of scenario files."""
+    schema = json.loads(ttb("schema").stdout)
+    assert schema["$schema"].startswith("https://json-schema.org/")
+    assert set(json.loads((examples / "r1.json").read_text())) <= set(schema["properties"])
+
+
+@pytest.mark.parametrize("command", [["run"], ["build"], ["check-scenario"]])
+def test_a_broken_scenario_brings_all_its_problems_at_once(ttb, examples, tmp_path, command):
+    """issues: main job, point 4: path and rule of each, exit 2, nothing written."""
+    broken = changed(examples / "r1.json", tmp_path / "broken.json", BROKEN)
+    output = [] if command == ["check-scenario"] else ["-o", tmp_path / "out"]
+    done = ttb(*command, broken, *output, expect=2, cwd=tmp_path)
+    for path in ("$.train.speed.km_h", "$.train.colour", "$.track.bays", "$.bridge.points[0].x", "$.time.step"):
+        assert f"{path}: " in done.stderr
+    assert done.stdout == ""
+    assert [entry.name for entry in tmp_path.iterdir()] == ["broken.json"]
+
+
+def test_a_scenario_that_is_not_there_is_bad_input(ttb, tmp_path):
+    """Named in the message."""
+    assert "nowhere.json" in ttb("run", "nowhere.json", expect=2, cwd=tmp_path).stderr
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize(
+    "settings",
+    [
+        {"max_iterations": 1},
+        {"max_iterations": 2, "tolerance": 1e-9},
+        {"tolerance": 1e-17},
+        {"max_iterations": 1, "on_failure": "halve"},
+    ],
+    ids=str,
+)
+def test_a_step_that_does_not_converge_ends_the_run_with_3(ttb, examples, tmp_path, settings):
+    """Time, residual and a way out in the message; the results so far are kept."""
+    changes = {f"coupling.{key}": value for key, value in settings.items()}
+    scenario = changed(examples / "r1.json", tmp_path / "scenario.json", changes)
+    done = ttb("run", scenario, "-o", tmp_path, expect=3)
+    assert "did not converge" in done.stderr and "t = " in done.stderr
+    found = summary(tmp_path)
+    assert found["status"] == "not-converged" and found["error"] in done.stderr
+    assert 0 < found["reached_s"] < 1.1
+    assert len((tmp_path / "results.csv").read_text().splitlines()) == found["iterations"]["steps"] + 2
+
+
+def test_on_failure_accept_goes_on_and_counts(ttb, examples, tmp_path):
+    """One pass a step, as an explicit master: on R1's heavy bridge the deflection is right all the same."""
+    changes = {"coupling.max_iterations": 1, "coupling.on_failure": "accept"}
+    ttb("run", changed(examples / "r1.json", tmp_path / "scenario.json", changes), "-o", tmp_path)
+    found = summary(tmp_path)
+    assert found["status"] == "ok" and found["iterations"]["mean"] == 1
+    assert found["iterations"]["not_converged"] > 1000
+    [peak] = [peak["max"]["value"] for peak in found["peaks"] if peak["name"] == "point[mid].displacement"]
+    assert peak == pytest.approx(0.65235e-3, rel=0.02)
+
+
+def test_an_fmu_that_fails_ends_the_run_with_4(ttb, examples, r1, tmp_path):
+    """A wrong GUID, a lost resource, no archive at all: which FMU and why."""
+    wrong = copy(r1.bridge, tmp_path, {DESCRIPTION: replaced(r1.bridge.description.guid, "{0}")})
+    assert "GUID" in ttb("run", examples / "r1.json", "--bridge", wrong.path, "-o", tmp_path / "out", expect=4).stderr
+    lost = copy(r1.train_track, tmp_path, {"resources/train-track.json": lambda content: None})
+    said = ttb("run", examples / "r1.json", "--train-track", lost.path, "-o", tmp_path / "out", expect=4).stderr
+    assert "TrainTrack" in said and "train-track.json" in said
+    (tmp_path / "junk.fmu").write_text("no archive")
+    said = ttb("run", examples / "r1.json", "--bridge", tmp_path / "junk.fmu", "-o", tmp_path / "out", expect=4).stderr
+    assert "junk.fmu" in said
+
+
+def test_fmus_of_another_scenario_are_bad_input(ttb, examples, default, tmp_path):
+    """Their supports do not match."""
+    for option, fmu in (("--bridge", default.bridge), ("--train-track", default.train_track)):
+        assert "support[50]" in ttb("run", examples / "r1.json", option, fmu.path, "-o", tmp_path, expect=2).stderr
+    assert not (tmp_path / "results.csv").exists()
+
+
+def test_fmus_given_on_the_command_line_give_the_same_run(ttb, examples, r1, r1_run, tmp_path):
+    """Ours or anyone's: the master takes the same path."""
+    ttb("run", examples / "r1.json", "--train-track", r1.train_track.path, "--bridge", r1.bridge.path, "-o", tmp_path)
+    assert (tmp_path / "results.csv").read_bytes() == (r1_run / "results.csv").read_bytes()
+    assert list(tmp_path.glob("*.fmu")) == []
+
+
+def test_an_output_folder_that_cannot_be_is_an_io_error(ttb, examples, tmp_path):
+    """A file in the way, of the folder or of a result."""
+    (tmp_path / "file").write_text("")
+    assert "file" in ttb("run", examples / "r1.json", "-o", tmp_path / "file", expect=5).stderr
+    assert "file" in ttb("build", examples / "r1.json", "-o", tmp_path / "file" / "below", expect=5).stderr
+    (tmp_path / "out" / "results.csv").mkdir(parents=True)
+    assert "results.csv" in ttb("run", examples / "r1.json", "-o", tmp_path / "out", expect=5).stderr
+
+
+def test_an_interrupted_run_keeps_its_results(ttb, tmp_path):
+    """Ctrl-C in the middle of the bundled scenario: exit 130, whole rows, a summary that says so."""
+    process = subprocess.Popen([ttb.path, "run", "-o", tmp_path], stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+    results = tmp_path / "results.csv"
+    while not (results.is_file() and results.stat().st_size > 100_000) and process.poll() is None:
+        time.sleep(0.01)
+    process.send_signal(signal.SIGINT)
+    process.communicate(timeout=30)
+    assert process.returncode == 130
+    found = summary(tmp_path)
+    assert found["status"] == "interrupted" and 0 < found["reached_s"] < 8.064
+    rows = list(csv.reader(results.open()))
+    assert len(rows) == found["iterations"]["steps"] + 2
+    assert {len(row) for row in rows} == {len(rows[0])}
+    assert float(rows[-1][0]) == found["reached_s"]

@@ -1,0 +1,113 @@
+"""Rules of the FMU Compliance Checker and of fmi.md 2 that validators leave out or that are worth a second reading.
+
+Checked here on the bare XML: attributes of the root, identifiers, unique names and references, admissible combinations
+of causality, variability and initial, start values, bounds, units, types, and the whole ModelStructure.
+"""
+
+import re
+import zipfile
+from collections import Counter
+
+import pytest
+from lxml import etree
+from spoil import DESCRIPTION
+
+# FMI 2.0.4, section 2.2.7: (causality, variability) → admissible `initial`, the default first; None: must be absent.
+COMBINATIONS = {
+    ("input", "continuous"): [None],
+    ("output", "continuous"): ["calculated", "exact"],
+    ("parameter", "fixed"): ["exact"],
+}
+
+
+@pytest.fixture
+def root(any_fmu):
+    with zipfile.ZipFile(any_fmu.path) as archive:
+        return etree.fromstring(archive.read(DESCRIPTION))
+
+
+@pytest.fixture
+def variables(root):
+    return root.findall("ModelVariables/ScalarVariable")
+
+
+def test_the_root_says_version_guid_and_date_in_the_standards_form(root):
+    """fmiVersion exactly 2.0; the GUID a registry GUID; the date ISO 8601 in UTC."""
+    assert root.get("fmiVersion") == "2.0"
+    assert re.fullmatch(r"\{[0-9a-f]{8}(-[0-9a-f]{4}){3}-[0-9a-f]{12}\}", root.get("guid"))
+    assert re.fullmatch(r"\d{4}-\d\d-\d\dT\d\d:\d\d:\d\dZ", root.get("generationDateAndTime"))
+    assert root.find("ModelExchange") is None
+
+
+def test_the_capabilities_are_those_a_master_with_roll_back_needs(root, any_fmu):
+    """issues: main job, FMUs."""
+    kind = root.find("CoSimulation")
+    assert re.fullmatch(r"[A-Za-z_]\w*", kind.get("modelIdentifier"))
+    needed = ["canHandleVariableCommunicationStepSize", "canInterpolateInputs", "canGetAndSetFMUstate", "canSerializeFMUstate"]
+    assert [kind.get(name) for name in needed] == ["true"] * 4
+    assert kind.get("providesDirectionalDerivative") == ("true" if any_fmu.identifier == "Bridge" else "false")
+    assert kind.get("canBeInstantiatedOnlyOncePerProcess", "false") == "false"
+
+
+def test_names_and_references_are_unique_and_names_have_no_comma(variables):
+    """FMPy's CSV reader mislabels columns after a comma."""
+    names = Counter(v.get("name") for v in variables)
+    references = Counter(v.get("valueReference") for v in variables)
+    assert max(names.values()) == 1 and max(references.values()) == 1
+    assert [name for name in names if "," in name or name != name.strip()] == []
+
+
+def test_causality_variability_and_initial_fit_together(variables):
+    """The table of section 2.2.7; only Reals are continuous."""
+    for v in variables:
+        admissible = COMBINATIONS[v.get("causality"), v.get("variability")]
+        assert v.get("initial", admissible[0]) in admissible, v.get("name")
+        assert v.get("variability") != "continuous" or v[0].tag == "Real", v.get("name")
+
+
+def test_start_values_are_there_where_they_must_and_within_bounds(variables):
+    """Section 2.2.7: inputs, parameters and exact variables have one, calculated variables none."""
+    for v in variables:
+        calculated = v.get("causality") == "output" and v.get("initial") != "exact"
+        assert (v[0].get("start") is None) == calculated, v.get("name")
+        if v[0].tag in ("Real", "Integer") and not calculated:
+            least, most = float(v[0].get("min", "-inf")), float(v[0].get("max", "inf"))
+            assert least <= float(v[0].get("start")) <= most, v.get("name")
+
+
+def test_units_and_types_in_use_are_defined_and_all_defined_ones_are_used(root, variables):
+    """Sections 2.2.2 and 2.2.3."""
+    assert {v[0].get("unit") for v in variables} - {None} == {unit.get("name") for unit in root.findall("UnitDefinitions/Unit")}
+    types = {kind.get("name") for kind in root.findall("TypeDefinitions/SimpleType")}
+    assert {v[0].get("declaredType") for v in variables} - {None} == types
+    for kind in root.findall("TypeDefinitions/SimpleType/Enumeration"):
+        values = [int(item.get("value")) for item in kind]
+        assert values == list(range(1, len(values) + 1))
+    for v in variables:
+        assert v[0].tag != "Enumeration" or v[0].get("declaredType"), v.get("name")
+
+
+def test_the_model_structure_lists_every_output_once_in_order(root, variables):
+    """Section 2.2.8: 1-based, ascending; no derivatives; InitialUnknowns are the calculated outputs only."""
+    structure = root.find("ModelStructure")
+    outputs = [i for i, v in enumerate(variables, 1) if v.get("causality") == "output"]
+    calculated = [i for i in outputs if variables[i - 1].get("initial") != "exact"]
+    assert [int(unknown.get("index")) for unknown in structure.find("Outputs")] == outputs
+    assert [int(unknown.get("index")) for unknown in structure.iterfind("InitialUnknowns/Unknown")] == calculated
+    assert structure.find("Derivatives") is None
+
+
+def test_only_the_support_forces_of_the_track_declare_feed_through(root, variables):
+    """fmi.md 2: absent dependencies mean all inputs, "" none; feed-through on both sides would be an algebraic loop."""
+    for unknown in root.find("ModelStructure/Outputs"):
+        name = variables[int(unknown.get("index")) - 1].get("name")
+        feeds_through = re.fullmatch(r"support\[\d+\]\.force", name)
+        assert unknown.get("dependencies") == (None if feeds_through else ""), name
+
+
+def test_the_default_experiment_begins_at_zero_and_holds_whole_steps(root):
+    """startTime < stopTime, stepSize positive."""
+    experiment = root.find("DefaultExperiment")
+    stop, step = float(experiment.get("stopTime")), float(experiment.get("stepSize"))
+    assert float(experiment.get("startTime")) == 0 < step < stop
+    assert abs(stop / step - round(stop / step)) < 1e-9
