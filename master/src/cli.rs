@@ -23,7 +23,12 @@ First steps:
   ttb check-scenario MY.json   every problem of a scenario at once
 
 Exit codes:
-  0 ok   2 bad input   3 not converged   4 an FMU failed   5 input/output   130 interrupted, results kept";
+    0  ok
+    2  bad input: every problem is listed
+    3  a step did not converge
+    4  an FMU failed
+    5  input or output failed
+  130  interrupted; results so far are kept";
 
 /// The commands.
 #[derive(Debug, Subcommand)]

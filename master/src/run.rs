@@ -26,6 +26,9 @@ const PROGRESS: u64 = 50;
 /// The command.
 pub fn run(arguments: &Run) -> Result<(), Error> {
     let checked = build::scenario(arguments.scenario.as_deref())?;
+    for given in [&arguments.train_track, &arguments.bridge].into_iter().flatten() {
+        std::fs::File::open(given).map_err(|e| Error::Input(format!("{}: {e}", given.display())))?;
+    }
     let folder = &arguments.output;
     std::fs::create_dir_all(folder).map_err(Error::io(folder))?;
     let train_track = arguments.train_track.clone().map_or_else(|| build::train_track(&checked, folder), Ok)?;
@@ -148,12 +151,16 @@ fn finish(
     outcome.and(written).and(drawn)
 }
 
-/// Set by Ctrl-C; the run then ends after the step it is in.
+/// Set by Ctrl-C; the run then ends after the step it is in. A second Ctrl-C ends the program at once.
 fn stop_on_interrupt() -> Arc<AtomicBool> {
     let stop = Arc::new(AtomicBool::new(false));
     let flag = Arc::clone(&stop);
     // Without a handler Ctrl-C ends the program at once: no reason not to run.
-    if let Err(error) = ctrlc::set_handler(move || flag.store(true, Ordering::Relaxed)) {
+    if let Err(error) = ctrlc::set_handler(move || {
+        if flag.swap(true, Ordering::Relaxed) {
+            std::process::exit(130);
+        }
+    }) {
         eprintln!("ttb: warning: Ctrl-C will not keep results: {error}");
     }
     stop

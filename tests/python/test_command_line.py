@@ -26,7 +26,7 @@ def summary(folder):
 def test_help_teaches_the_exit_codes_and_every_command(ttb):
     """--help is where a user looks first."""
     said = " ".join(ttb("--help").stdout.split())
-    codes = ["0 ok", "2 bad input", "3 not converged", "4 an FMU failed", "5 input/output", "130 interrupted, results kept"]
+    codes = ["0 ok", "2 bad input", "3 a step did not converge", "4 an FMU failed", "5 input or output failed", "130 interrupted"]
     assert [code for code in codes if code not in said] == []
     for command in ("run", "build", "check-scenario", "schema"):
         assert command in said

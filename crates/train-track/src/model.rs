@@ -23,6 +23,10 @@ use crate::variables::{self, Parameter};
 const RESOURCE: &str = "train-track.json";
 /// Steps within this of the factorised one are that one.
 const SAME_STEP: f64 = 1e-9;
+/// Sub-steps of a macro step at most: more is a mistake in `step_size`.
+const MOST_SUBSTEPS: f64 = 1e6;
+/// Pre-roll at most, m.
+const LONGEST_PRE_ROLL: f64 = 1e4;
 /// Step sizes kept factorised.
 const STEP_SIZES: usize = 4;
 
@@ -251,6 +255,9 @@ impl Built {
     fn macro_step(&mut self, inputs: &[f64], rates: Option<&Vec<f64>>, t: f64, h: f64) -> Result<(), String> {
         let nominal = self.steps[0].newmark.h;
         let parts = (h / nominal * (1.0 - SAME_STEP)).ceil().max(1.0);
+        if parts > MOST_SUBSTEPS {
+            return Err(format!("a step of {h} s has more than {MOST_SUBSTEPS} parts of step_size = {nominal} s"));
+        }
         let matrices = self.matrices(h / parts)?;
         let supports = self.mean.len();
         self.mean.fill(0.0);
@@ -286,6 +293,12 @@ impl Built {
 /// What the interface list cannot say: parameters that must be positive, or not negative.
 fn check_parameters(get: &dyn Fn(Parameter) -> f64) -> Result<(), ModelError> {
     use Parameter::{Beta, FastenerDampingFactor, FastenerStiffnessFactor, Gamma, PreRoll, Speed, StepSize};
+    let upper = [(PreRoll, "pre_roll", LONGEST_PRE_ROLL), (Gamma, "gamma", 1.0)];
+    for (parameter, name, most) in upper {
+        if get(parameter) > most {
+            return Err(error(format!("parameter {name} is {}; it must be at most {most}", get(parameter))));
+        }
+    }
     let rules = [
         (FastenerStiffnessFactor, "fastener_stiffness_factor", 0.0, true),
         (FastenerDampingFactor, "fastener_damping_factor", 0.0, false),

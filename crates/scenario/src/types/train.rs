@@ -92,7 +92,7 @@ pub struct Train {
     /// Distance in m over which the cars alone are rolled over the irregularity, on the track's static stiffness,
     /// before the run starts, so that they do not ring from a start at rest; 0: start at rest.
     #[serde(default)]
-    #[schemars(range(min = 0))]
+    #[schemars(range(min = 0, max = 10000))]
     pub pre_roll: f64,
 }
 
