@@ -62,7 +62,7 @@ def examples():
 
 @pytest.fixture(scope="session")
 def r1(ttb, examples, tmp_path_factory):
-    """The FMUs of examples/r1.json (physics.md 7.5)."""
+    """The FMUs of examples/r1.json (docs/theory.md 15)."""
     folder = tmp_path_factory.mktemp("r1")
     ttb("build", examples / "r1.json", "-o", folder)
     return Pair.at(folder)

@@ -1,4 +1,4 @@
-"""What is inside an FMU file: names, libraries, symbols (FMI 2.0, sections 2.1.2 and 2.3; design: fmi.md 2)."""
+"""What is inside an FMU file: names, libraries, symbols (FMI 2.0, sections 2.1.2 and 2.3; docs/guide/fmus.md)."""
 
 import re
 import zipfile
@@ -45,7 +45,7 @@ def test_all_members_are_whole_and_stored_or_deflated(archive):
 
 
 def test_no_member_name_has_a_dot_segment_or_a_backslash(archive):
-    """fmi.md 2: "./" and backslashes are refused by some importers."""
+    """docs/guide/fmus.md: "./" and backslashes are refused by some importers."""
     for member in archive.infolist():
         assert re.fullmatch(r"[\w.-]+(/[\w.-]+)*", member.orig_filename), member.orig_filename
         assert "." not in member.orig_filename.split("/")
@@ -65,7 +65,7 @@ def test_the_documentation_names_every_variable(any_fmu, archive):
 
 
 def test_the_description_has_no_byte_order_mark(archive):
-    """fmi.md 2: some readers stumble over it."""
+    """docs/guide/fmus.md: some readers stumble over it."""
     assert archive.read(DESCRIPTION).startswith(b"<?xml")
 
 
@@ -78,6 +78,6 @@ def test_the_library_exports_the_44_functions_and_nothing_else(library):
 
 
 def test_the_library_needs_nothing_but_the_c_library(library):
-    """fmi.md 2: libc, libm, libgcc_s."""
+    """docs/guide/fmus.md: libc, libm, libgcc_s."""
     needed = {tag.needed for tag in library.get_section_by_name(".dynamic").iter_tags("DT_NEEDED")}
     assert needed <= ALLOWED

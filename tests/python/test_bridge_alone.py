@@ -5,7 +5,7 @@ import pytest
 from fmpy import simulate_fmu
 from fmu import FMU2Instance
 
-# physics.md 7.5: bending stiffness, N m², length, m, first frequency, Hz, of R1's beam.
+# docs/theory.md 15: bending stiffness, N m², length, m, first frequency, Hz, of R1's beam.
 EI, L, F1 = 4.39668e11, 32.5, 5.7199
 
 
@@ -32,7 +32,7 @@ def test_the_bridges_stiffness_factor_halves_what_a_held_force_settles_to(r1):
 
 
 def test_the_bridges_damping_ratio_and_mass_factor_decide_how_it_rings(r1):
-    """Free vibration after a load is let go: f₁ = F1 Hz (physics.md 7.5), less with more mass; ζ from the decay."""
+    """Free vibration after a load is let go: f₁ = F1 Hz (docs/theory.md 15), less with more mass; ζ from the decay."""
 
     def free(**parameters):
         with FMU2Instance(r1.bridge) as bridge:

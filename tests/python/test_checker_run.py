@@ -36,7 +36,7 @@ def test_without_debug_logging_nothing_is_said(any_fmu):
 
 
 def test_debug_logging_without_categories_means_all(any_fmu):
-    """fmi.md 2: SetDebugLogging with no category; the declared categories are known, others bring a warning."""
+    """docs/guide/fmus.md: SetDebugLogging with no category; the declared categories are known, others bring a warning."""
     with FMU2Instance(any_fmu) as instance:
         instance.setDebugLogging(True, [])
         instance.reset()
@@ -64,7 +64,7 @@ def test_start_values_of_the_description_are_those_of_the_instance(any_fmu):
 
 
 def test_loading_an_fmu_changes_nothing_in_the_process(r1):
-    """fmi.md 2: no chdir, no signal handlers, no threads of its own; in a process of its own."""
+    """docs/guide/fmus.md: no chdir, no signal handlers, no threads of its own; in a process of its own."""
     script = f"""
 import os, signal, sys, threading
 sys.path.insert(0, {str(Path(__file__).parent)!r})

@@ -59,7 +59,7 @@ def test_a_derivative_is_linear_in_its_direction(bridge):
 
 
 def test_displacement_by_force_is_symmetric_and_positive(bridge):
-    """fmi.md 1: force is work-conjugate to the motion; S_ii > 0, of the size h²/4m of a Newmark step."""
+    """docs/guide/fmus.md: force is work-conjugate to the motion; S_ii > 0, of the size h²/4m of a Newmark step."""
     fmu = bridge.fmu
     unknown = fmu.references([name for name in fmu.names("output") if name.startswith("support") and name.endswith("displacement")])
     known = fmu.references(fmu.names("input"))

@@ -1,4 +1,4 @@
-"""Rules of the FMU Compliance Checker and of fmi.md 2 that validators leave out or that are worth a second reading.
+"""Rules of the FMU Compliance Checker and of docs/guide/fmus.md that validators leave out or that are worth a second reading.
 
 Checked here on the bare XML: attributes of the root, identifiers, unique names and references, admissible combinations
 of causality, variability and initial, start values, bounds, units, types, and the whole ModelStructure.
@@ -98,7 +98,7 @@ def test_the_model_structure_lists_every_output_once_in_order(root, variables):
 
 
 def test_only_the_support_forces_of_the_track_declare_feed_through(root, variables):
-    """fmi.md 2: absent dependencies mean all inputs, "" none; feed-through on both sides would be an algebraic loop."""
+    """docs/guide/fmus.md: absent dependencies mean all inputs, "" none; feed-through on both sides would be an algebraic loop."""
     for unknown in root.find("ModelStructure/Outputs"):
         name = variables[int(unknown.get("index")) - 1].get("name")
         feeds_through = re.fullmatch(r"support\[\d+\]\.force", name)

@@ -1,4 +1,4 @@
-"""The examples: all are free of problems, and R1 gives the published numbers (physics.md 7.5, two independent codes)."""
+"""The examples: all are free of problems, and R1 gives the published numbers (docs/theory.md 15, two independent codes)."""
 
 import json
 

@@ -1,4 +1,4 @@
-"""What an input means over a step (fmi.md 1): each way of telling the same motion or force leads to the same run."""
+"""What an input means over a step (docs/guide/fmus.md): each way of telling the same motion or force leads to the same run."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""Bridge.fmu alone, driven by a moving force in FMPy, reproduces the closed solution (physics.md 7.1, Frýba 1999).
+"""Bridge.fmu alone, driven by a moving force in FMPy, reproduces the closed solution (docs/theory.md 15, Frýba 1999).
 
 R1's bridge is a simply supported beam with 49 supports at the spacing a = L/50. The force P at x = v t is shared by the
 two supports beside it in proportion; on the first and last bay the abutments take their share. Damping is switched off.

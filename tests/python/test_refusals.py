@@ -88,7 +88,7 @@ def test_an_impossible_parameter_is_refused_with_its_value(r1, side, name, value
 
 
 def test_a_late_parameter_is_refused_and_the_run_goes_on(fmu):
-    """fmi.md 2: error and message."""
+    """docs/guide/fmus.md: error and message."""
     name = fmu.names("parameter")[0]
     with FMU2Instance(fmu) as instance:
         instance.initialize()

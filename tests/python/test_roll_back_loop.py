@@ -15,7 +15,7 @@ from scenario import changed
 
 H = 1e-3
 TOLERANCE = 1e-8
-# The ICE 3 trailer (physics.md 2), N, in the order of operations of the program.
+# The ICE 3 trailer (docs/theory.md 15), N, in the order of operations of the program.
 AXLE_LOAD = 9.81 * (0.25 * 44_000 + 0.5 * 2_400 + 2_400)
 # R1 as published, and on a bridge of 1 t/m, where the iteration has work to do: end, s, and the span's data.
 CASES = {

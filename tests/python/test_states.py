@@ -24,7 +24,7 @@ def test_a_restored_state_repeats_the_steps(fmu):
 
 
 def test_a_state_holds_inputs_and_derivatives_too(fmu):
-    """fmi.md 2: what was set before saving is set after restoring, also the derivatives for the coming step."""
+    """docs/guide/fmus.md: what was set before saving is set after restoring, also the derivatives for the coming step."""
     with FMU2Instance(fmu) as instance:
         instance.initialize()
         inputs, outputs = Reals(instance, fmu.names("input")), Reals(instance, fmu.names("output"))
@@ -81,7 +81,7 @@ def test_bytes_that_are_no_state_are_refused(fmu, r1):
 
 
 def test_a_state_is_overwritten_freed_and_then_unknown(fmu):
-    """fmi.md 2: overwrite when not NULL; Free sets NULL and accepts NULL."""
+    """docs/guide/fmus.md: overwrite when not NULL; Free sets NULL and accepts NULL."""
     with FMU2Instance(fmu) as instance:
         instance.initialize()
         state = instance.getFMUstate()
@@ -100,7 +100,7 @@ def test_a_state_is_overwritten_freed_and_then_unknown(fmu):
 
 
 def test_after_reset_the_run_is_the_same(fmu):
-    """fmi.md 2: also with other parameters in between, and from a terminated instance."""
+    """docs/guide/fmus.md: also with other parameters in between, and from a terminated instance."""
     with FMU2Instance(fmu) as instance:
         first = drive(instance.initialize(), 0, 50)
         instance.reset()

@@ -1,4 +1,4 @@
-"""How steps arrive from real importers (fmi.md 2): with rounding in their size, as crumbs, from other start times."""
+"""How steps arrive from real importers (docs/guide/fmus.md): with rounding in their size, as crumbs, from other start times."""
 
 import numpy as np
 import pytest

@@ -5,7 +5,7 @@ import pytest
 from fmpy import simulate_fmu
 from fmu import FMU2Instance
 
-# physics.md 2: P0 of the ICE 3 trailer, and of the motor car that leads the bundled train, N.
+# docs/theory.md 15: P0 of the ICE 3 trailer, and of the motor car that leads the bundled train, N.
 TRAILER, MOTOR = 143_226.0, 156_960.0
 
 

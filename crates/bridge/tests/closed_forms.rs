@@ -56,7 +56,7 @@ fn simply_supported_spans_vibrate_each_for_itself() {
 
 #[test]
 fn known_bridges_have_their_known_frequencies() {
-    // Case R1 (physics.md 7.5), and the bundled cable-stayed bridge: its file says what another program found.
+    // Case R1 (docs/theory.md 15), and the bundled cable-stayed bridge: its file says what another program found.
     let r1 = Bridge::new(beams(vec![span(32.5, 3.45e10 * 12.744, 29_720.0, 50)], 50, 1e-3)).unwrap();
     near("R1", r1.natural_frequencies(1).unwrap()[0], 5.7199, 1e-5);
     let frame = ttb_scenario::bundled::frame("cable-stayed-224").unwrap();

@@ -1,4 +1,4 @@
-//! Forces over simple beams against answers known from elsewhere (physics.md 7.1 to 7.3).
+//! Forces over simple beams against answers known from elsewhere (docs/theory.md 15).
 
 mod common;
 

@@ -17,7 +17,9 @@
 //! held end value would be first order only. Nothing here is allocated in a step.
 
 use crate::acceleration::{Acceleration, Aitken, FixedPoint};
-use crate::predictor::{History, Predictor};
+use crate::predictor::History;
+pub use crate::report::{IterationError, Outcome, StepInfo};
+pub use crate::settings::{OnFailure, Settings};
 use crate::subsystem::{Failure, Subsystem};
 
 /// Halvings of a step at most, under [`OnFailure::Halve`].
@@ -25,104 +27,6 @@ const HALVINGS: usize = 4;
 
 /// Trials of the static iteration at least: it needs no roll-back, and a one-pass run must start from equilibrium too.
 const STATIC_TRIALS: usize = 30;
-
-/// What to do with a step that does not converge.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum OnFailure {
-    /// Report it and stop; the state at the step's beginning is restored.
-    Stop,
-    /// Repeat it in two halves, down to a sixteenth; then stop.
-    Halve,
-    /// Go on with the last trial and count it.
-    Accept,
-}
-
-/// Settings of the iteration.
-#[derive(Clone, Copy, Debug)]
-pub struct Settings {
-    /// Aitken's relaxation, or the plain fixed point.
-    pub aitken: bool,
-    /// First trial.
-    pub predictor: Predictor,
-    /// On |r|, relative to max(|G|, `force_scale`).
-    pub tolerance: f64,
-    /// One axle load, N.
-    pub force_scale: f64,
-    /// k_max; 1 means one pass, without saving or restoring: bridge first, under the extrapolated forces.
-    pub max_iterations: usize,
-    /// Send forces as held means even to a bridge that can interpolate.
-    pub hold_forces: bool,
-    /// Policy for a step that does not converge.
-    pub on_failure: OnFailure,
-}
-
-/// How a step ended.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Outcome {
-    /// Within the tolerance.
-    Converged,
-    /// k_max trials were not enough.
-    IterationLimit,
-}
-
-/// One row of the iteration log.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct StepInfo {
-    /// How it ended.
-    pub outcome: Outcome,
-    /// Trials, those of halved steps included.
-    pub iterations: usize,
-    /// |r| / max(|G|, one axle load) of the last trial.
-    pub residual: f64,
-    /// Last quotient of successive |r|: the observed contraction; 0 with a single trial.
-    pub contraction: f64,
-    /// How often both states were restored to try again.
-    pub roll_backs: usize,
-    /// Halvings that were needed.
-    pub halvings: usize,
-}
-
-/// A run that cannot go on.
-#[derive(Clone, Debug, PartialEq)]
-pub enum IterationError {
-    /// A subsystem failed.
-    Subsystem(Failure),
-    /// The step from `t` did not converge; the policy says stop.
-    NotConverged {
-        /// Begin of the step, s.
-        t: f64,
-        /// Its size, s.
-        h: f64,
-        /// The last trial.
-        info: StepInfo,
-    },
-    /// The residual is not a number.
-    NotFinite {
-        /// Begin of the step, s.
-        t: f64,
-    },
-}
-
-impl std::fmt::Display for IterationError {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        match self {
-            Self::Subsystem(failure) => failure.fmt(f),
-            Self::NotConverged { t, h, info } => write!(
-                f,
-                "the support forces did not converge in the step from t = {t} s (h = {h} s): residual {:.2e} after {} \
-                 trials, contraction {:.2}; try method aitken, a smaller step or on_failure halve",
-                info.residual, info.iterations, info.contraction
-            ),
-            Self::NotFinite { t } => write!(f, "the support forces are not finite in the step from t = {t} s"),
-        }
-    }
-}
-impl std::error::Error for IterationError {}
-impl From<Failure> for IterationError {
-    fn from(failure: Failure) -> Self {
-        Self::Subsystem(failure)
-    }
-}
 
 /// The coupling of one train–track subsystem with one bridge.
 pub struct Coupling {

@@ -12,7 +12,10 @@ pub mod interface;
 pub mod iteration;
 pub mod model;
 pub mod predictor;
+pub mod report;
 pub mod run;
+pub mod settings;
+pub mod snapshot;
 pub mod subsystem;
 
 pub use in_process::InProcess;

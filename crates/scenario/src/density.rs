@@ -49,7 +49,7 @@ impl Density {
 mod tests {
     use crate::bundled;
 
-    /// physics.md section 5, mm.
+    /// docs/theory.md 15, mm.
     #[test]
     fn standard_deviations_of_the_bundled_spectra_are_the_known_ones() {
         let known = [

@@ -58,7 +58,7 @@ mod tests {
     use super::*;
     use crate::bundled;
 
-    /// physics.md 7.5: one trailer car, leading wheel at 30 m, wheels at 30, 27.5, 12.625, 10.125 m.
+    /// docs/theory.md 15: one trailer car, leading wheel at 30 m, wheels at 30, 27.5, 12.625, 10.125 m.
     #[test]
     fn wheels_stand_in_order_from_the_front_car_behind_car() {
         let car = bundled::cars("ice3-trailer").unwrap();

@@ -35,7 +35,7 @@ fn no_example_but_r1_is_warned_of() {
     }
 }
 
-/// physics.md 7.5.
+/// docs/theory.md 15.
 #[test]
 fn r1_is_the_case_of_the_design_note() {
     let r1 = example("r1.json");

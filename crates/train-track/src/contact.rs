@@ -228,7 +228,7 @@ mod tests {
 
     #[test]
     fn hertz_data_of_a_worn_wheel() {
-        // physics.md section 3: G 4.2206e-8; at 71.6 kN per wheel δ₀ = 72.77 µm, k_H = 1.4758 GN/m.
+        // docs/theory.md 15: G 4.2206e-8; at 71.6 kN per wheel δ₀ = 72.77 µm, k_H = 1.4758 GN/m.
         let law = Law::new(&contact(ContactLaw::Hertz, 1), 71.6e3);
         assert!((law.g / 4.2206e-8 - 1.0).abs() < 2e-5);
         assert!((law.static_approach() / 72.77e-6 - 1.0).abs() < 1e-4);

@@ -225,7 +225,7 @@ mod tests {
         Irregularity::new(&random(spectrum, wavelengths, seed, nowhere()), 1.0, WAY, None)
     }
 
-    /// physics.md section 5, mm. Over a whole period the waves are orthogonal, so that a sample has its σ up to the grid of
+    /// docs/theory.md 15, mm. Over a whole period the waves are orthogonal, so that a sample has its σ up to the grid of
     /// Ω; over the wheels' way it scatters, as it should.
     #[test]
     fn samples_have_the_known_standard_deviations() {

@@ -1,4 +1,4 @@
-//! Cars against physics.md section 2, and the state of the subsystem.
+//! Cars against docs/theory.md 15, and the state of the subsystem.
 
 mod common;
 

@@ -1,4 +1,4 @@
-//! The track against closed forms: a rail on a Winkler foundation (physics.md 7.4).
+//! The track against closed forms: a rail on a Winkler foundation (docs/theory.md 15).
 
 mod common;
 

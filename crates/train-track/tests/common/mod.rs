@@ -7,7 +7,7 @@ use ttb_scenario::spec::{Profile, TrainTrackSpec};
 use ttb_scenario::types::{Car, Contact, ContactLaw, Newmark, Rail, Spring, Support, TrackType, Tread};
 use ttb_train_track::TrainTrack;
 
-/// One ICE-3 trailer on slab track (physics.md 7.5), the middle third of 60 bays on a bridge.
+/// One ICE-3 trailer on slab track (docs/theory.md 15), the middle third of 60 bays on a bridge.
 pub fn spec() -> TrainTrackSpec {
     let ei = 2.06e11 * 2.0 * 3.217e-5;
     TrainTrackSpec {
