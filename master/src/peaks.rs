@@ -74,11 +74,10 @@ impl Peaks {
     pub fn update(&mut self, row: &[f64], time: f64, h: f64) {
         for ((peak, position), value) in self.peaks.iter_mut().zip(&self.positions).zip(row) {
             let here = || Extreme { value: *value, time, x: position.map(|p| row[p]) };
-            // Written so that the first value, compared with NaN, is always taken.
-            if !(peak.min.value <= *value) {
+            if peak.min.value.is_nan() || *value < peak.min.value {
                 peak.min = here();
             }
-            if !(peak.max.value >= *value) {
+            if peak.max.value.is_nan() || *value > peak.max.value {
                 peak.max = here();
             }
         }

@@ -86,9 +86,9 @@ impl Band {
                 self.rows[i * w + b - (i - j)] -= c;
             }
             let mut d = self.rows[i * w + b];
-            for j in first..i {
+            for (j, inverse) in (first..i).zip(&inverse[first..i]) {
                 let c = self.rows[i * w + b - (i - j)];
-                let l = c * inverse[j];
+                let l = c * inverse;
                 d -= c * l;
                 self.rows[i * w + b - (i - j)] = l;
             }

@@ -159,9 +159,9 @@ impl<const B: usize> Sweep<B> {
     /// The unknown of the next row, and its coefficients to the rows after it.
     fn next(&mut self, x: Pair, row: &[Pair; B]) -> Pair {
         let y = std::array::from_fn(|lane| (x[lane] - self.sums[0][lane]) - self.nearest[lane] * self.newest[lane]);
-        for k in 0..B {
+        for (k, coefficients) in row.iter().enumerate() {
             let carried = if k + 1 < B { self.sums[k + 1] } else { [0.0; 2] };
-            let taken = |lane: usize| if k > 0 { row[k][lane] * y[lane] } else { 0.0 };
+            let taken = |lane: usize| if k > 0 { coefficients[lane] * y[lane] } else { 0.0 };
             self.sums[k] = std::array::from_fn(|lane| carried[lane] + taken(lane));
         }
         (self.newest, self.nearest) = (y, row[0]);

@@ -173,7 +173,7 @@ fn solve(
     contacts: &[(Row, f64, f64)],
     load: &[f64],
     start: Option<&Vec<f64>>,
-    u: &mut Vec<f64>,
+    u: &mut [f64],
     forces: &mut [f64],
 ) -> Result<(), String> {
     let mut base = Assembly::new(load.len());

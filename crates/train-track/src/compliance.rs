@@ -56,12 +56,12 @@ impl RailCompliance {
         let begin = self.support_nodes.partition_point(|n| n + self.width <= point.element + 1);
         let end = self.support_nodes.partition_point(|n| *n < point.element + self.width);
         let end = end.max(begin);
-        for s in begin..end {
+        for (s, entry) in row.iter_mut().enumerate().take(end).skip(begin) {
             let table = s * (2 * self.width - 1);
             let at = |node: usize| self.columns[table + node + self.width - 1 - self.support_nodes[s]];
             let ([w1, t1], [w2, t2]) = (at(point.element), at(point.element + 1));
             let [a, b, c, d] = point.row;
-            row[s] = a * w1 + b * t1 + c * w2 + d * t2;
+            *entry = a * w1 + b * t1 + c * w2 + d * t2;
         }
         begin..end
     }

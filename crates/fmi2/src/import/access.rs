@@ -152,12 +152,11 @@ impl FmuInstance {
         let out = &raw mut value;
         // SAFETY: a live instance and arrays of one item.
         self.run("fmi2GetString", |_, c| unsafe { get(c, &reference, 1, out) })?;
+        if value.is_null() {
+            return Ok(String::new());
+        }
         // SAFETY: FMI 2.0 keeps the string until the next call; it is copied here.
-        Ok(if value.is_null() {
-            String::new()
-        } else {
-            unsafe { CStr::from_ptr(value) }.to_string_lossy().into_owned()
-        })
+        Ok(unsafe { CStr::from_ptr(value) }.to_string_lossy().into_owned())
     }
 
     /// Sets an Integer or an enumeration.
