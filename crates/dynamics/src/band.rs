@@ -53,22 +53,6 @@ impl Band {
             }
         }
     }
-    /// y += A x.
-    pub fn multiply_add(&self, x: &[f64], y: &mut [f64]) {
-        let w = self.b + 1;
-        for (i, row) in self.rows.chunks_exact(w).enumerate() {
-            let first = i.saturating_sub(self.b);
-            let row = &row[w - 1 - (i - first)..];
-            let (lower, diagonal) = row.split_at(row.len() - 1);
-            let xi = x[i];
-            let mut sum = diagonal[0] * xi;
-            for ((a, xj), yj) in lower.iter().zip(&x[first..i]).zip(&mut y[first..i]) {
-                sum += a * xj;
-                *yj += a * xi;
-            }
-            y[i] += sum;
-        }
-    }
 
     /// A = L D Lᵀ.
     ///
@@ -142,6 +126,16 @@ impl BandFactor {
 #[cfg(test)]
 pub(crate) mod tests {
     use super::*;
+
+    impl Band {
+        /// y += A x, to check what a factor solves.
+        pub(crate) fn multiply_add(&self, x: &[f64], y: &mut [f64]) {
+            for (i, y) in y.iter_mut().enumerate() {
+                let columns = i.saturating_sub(self.b)..(i + self.b + 1).min(self.n);
+                *y += columns.map(|j| self.get(i, j) * x[j]).sum::<f64>();
+            }
+        }
+    }
 
     /// A diagonally dominant band of reproducible numbers.
     pub(crate) fn random(n: usize, b: usize) -> Band {

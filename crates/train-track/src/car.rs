@@ -32,14 +32,8 @@ pub struct Car {
     pub damping: Matrix10,
     /// K; singular, the wheels are free.
     pub stiffness: Matrix10,
-    /// Distances of the axles behind the leading one, m.
-    pub axle_offsets: [f64; AXLES],
     /// P0: static load of an axle, N.
     pub axle_load: f64,
-    /// From the car's front to its leading axle, m.
-    pub overhang: f64,
-    /// Pitch to the next car, m.
-    pub length: f64,
 }
 
 impl Car {
@@ -66,10 +60,7 @@ impl Car {
             mass: Vector10::from_column_slice(&[mc, jc, mb, jb, mb, jb, mw, mw, mw, mw]),
             damping,
             stiffness,
-            axle_offsets: [0.0, 2.0 * lt, 2.0 * lc, 2.0 * (lc + lt)],
             axle_load: GRAVITY * (0.25 * mc + 0.5 * mb + mw),
-            overhang: 0.5 * data.length - lc - lt,
-            length: data.length,
         }
     }
 

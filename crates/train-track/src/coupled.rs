@@ -123,12 +123,12 @@ impl TrainTrackSystem {
         track: Track,
         cars: Vec<Car>,
         contacts: Contacts,
+        axle_offsets: Vec<f64>,
         front_wheel: f64,
         running: Running,
         irregularity: Irregularity,
     ) -> Self {
         let (n, axles, supports) = (track.order(), cars.len() * AXLES, track.bridge_supports());
-        let axle_offsets = axle_offsets(&cars);
         Self {
             cars_free: vec![0.0; cars.len() * DOFS],
             track,
@@ -316,15 +316,4 @@ impl TrainTrackSystem {
         new.deck.copy_from_slice(deck);
         Ok(())
     }
-}
-
-/// Distances of all axles behind the leading one, m.
-fn axle_offsets(cars: &[Car]) -> Vec<f64> {
-    let mut offsets = Vec::with_capacity(cars.len() * AXLES);
-    let mut front = -cars.first().map_or(0.0, |c| c.overhang);
-    for car in cars {
-        offsets.extend(car.axle_offsets.map(|o| front + car.overhang + o));
-        front += car.length;
-    }
-    offsets
 }

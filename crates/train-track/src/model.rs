@@ -9,6 +9,7 @@ use ttb_dynamics::band::BandFactor;
 use ttb_dynamics::newmark::Newmark;
 use ttb_dynamics::pool::Pool;
 use ttb_scenario::spec::TrainTrackSpec;
+use ttb_scenario::travel::wheel_offsets;
 
 use crate::car::{AXLES, Car};
 use crate::contact::{Contacts, Law};
@@ -77,21 +78,6 @@ impl TrainTrack {
         Ok(Self { interface: variables::interface(&spec), spec, built: None })
     }
 
-    /// The specification.
-    pub fn spec(&self) -> &TrainTrackSpec {
-        &self.spec
-    }
-
-    /// The coupled system, once built.
-    pub fn system(&self) -> Option<&TrainTrackSystem> {
-        self.built.as_ref().map(|b| &b.system)
-    }
-
-    /// The present state, once built.
-    pub fn state(&self) -> Option<&State> {
-        self.built.as_ref().map(|b| &*b.state)
-    }
-
     fn built(&mut self) -> Result<&mut Built, ModelError> {
         self.built.as_mut().ok_or_else(|| error("the model is not initialized"))
     }
@@ -146,14 +132,16 @@ impl Model for TrainTrack {
         let cars: Vec<Car> = spec.cars.iter().map(Car::new).collect();
         let laws = cars.iter().flat_map(|c| [Law::new(&spec.contact, c.axle_load); AXLES]).collect();
         // The cars are pre-rolled over their own length more, so that the last one has run as far as asked.
-        let length: f64 = cars.iter().map(|c| c.length).sum();
+        let length: f64 = spec.cars.iter().map(|c| c.length).sum();
         let pre_roll = if spec.pre_roll > 0.0 { spec.pre_roll + length } else { 0.0 };
         let seed = get(Parameter::IrregularitySeed) as u64;
         let way = [spec.front_wheel - pre_roll, track.extent().1];
         let irregularity = Irregularity::new(&spec.irregularity, spec.irregularity_scale, way, Some(seed));
         let statics = track.effective(0.0, 0.0).factorise().map_err(|e| error(format!("track at rest: {e}")))?;
         let (n, supports) = (track.order(), track.bridge_supports());
-        let system = TrainTrackSystem::new(track, cars, Contacts::new(laws), spec.front_wheel, running, irregularity);
+        let offsets = wheel_offsets(&spec.cars);
+        let system =
+            TrainTrackSystem::new(track, cars, Contacts::new(laws), offsets, spec.front_wheel, running, irregularity);
         let steps = vec![system.matrices(newmark).map_err(error)?];
         let state = Arc::new(State::rest(n, system.cars.len(), supports));
         let input_meaning = get(Parameter::InputMeaning);

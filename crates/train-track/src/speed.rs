@@ -1,41 +1,41 @@
 //! How far the train has run: speed v(t) piecewise linear, constant outside its points.
 
+use ttb_scenario::travel::speed_at;
+
 /// Speed over time, scaled.
 #[derive(Clone, Debug)]
 pub struct Running {
-    /// (t, v, distance run since t = 0 at t).
-    points: Vec<[f64; 3]>,
+    /// (t, v).
+    points: Vec<[f64; 2]>,
+    /// Distance run since t = 0 at every point: summed once, asked for by every wheel of every step.
+    run: Vec<f64>,
 }
 
 impl Running {
     /// From points (time s, speed m/s), times increasing; all speeds are multiplied by `factor`.
     pub fn new(points: &[[f64; 2]], factor: f64) -> Self {
-        let mut running = Self { points: points.iter().map(|p| [p[0], p[1] * factor, 0.0]).collect() };
+        let points: Vec<_> = points.iter().map(|[t, v]| [*t, v * factor]).collect();
+        let mut running = Self { run: vec![0.0; points.len()], points };
         for i in 1..running.points.len() {
-            let ([t0, v0, s0], [t1, v1, _]) = (running.points[i - 1], running.points[i]);
-            running.points[i][2] = s0 + 0.5 * (v0 + v1) * (t1 - t0);
+            let ([t0, v0], [t1, v1]) = (running.points[i - 1], running.points[i]);
+            running.run[i] = running.run[i - 1] + 0.5 * (v0 + v1) * (t1 - t0);
         }
         // Distances count from t = 0.
         let at_zero = running.distance(0.0);
-        running.points.iter_mut().for_each(|p| p[2] -= at_zero);
+        running.run.iter_mut().for_each(|s| *s -= at_zero);
         running
     }
 
     /// v(t), m/s.
     pub fn speed(&self, t: f64) -> f64 {
-        let i = self.points.partition_point(|p| p[0] <= t);
-        match (i.checked_sub(1).and_then(|i| self.points.get(i)), self.points.get(i)) {
-            (Some([t0, v0, _]), Some([t1, v1, _])) => v0 + (v1 - v0) * (t - t0) / (t1 - t0),
-            (Some([_, v, _]), None) | (None, Some([_, v, _])) => *v,
-            (None, None) => 0.0,
-        }
+        speed_at(&self.points, t)
     }
 
     /// Distance run since t = 0, m; negative before.
     pub fn distance(&self, t: f64) -> f64 {
         let i = self.points.partition_point(|p| p[0] <= t).saturating_sub(1);
-        let Some([t0, v0, s0]) = self.points.get(i).copied() else { return 0.0 };
-        s0 + 0.5 * (if t < t0 { v0 + v0 } else { v0 + self.speed(t) }) * (t - t0)
+        let (Some([t0, v0]), Some(s0)) = (self.points.get(i), self.run.get(i)) else { return 0.0 };
+        s0 + 0.5 * (v0 + self.speed(t)) * (t - t0)
     }
 }
 
