@@ -3,6 +3,7 @@
 //! Start with [`model::Bridge`]. A specification becomes a mesh ([`beams`] or [`frame`] → [`mesh`]), a mesh becomes
 //! equations ([`structure`], [`system`]), and the deck's path ([`deck`]) ties the track's supports to them.
 
+pub mod assembled;
 pub mod beams;
 pub mod deck;
 pub mod frame;

@@ -23,6 +23,7 @@ struct Entry {
     row: u32,
     k: f64,
     m: f64,
+    c: f64,
 }
 
 impl Assembly {
@@ -42,7 +43,23 @@ impl Assembly {
             let Some(row) = row else { continue };
             for ((&column, &k), &m) in dofs.iter().zip(k.as_ref()).zip(m.as_ref()) {
                 if let Some(column) = column.filter(|c| *c <= row) {
-                    self.entries.push(Entry { column, row, k, m });
+                    self.entries.push(Entry { column, row, k, m, c: 0.0 });
+                }
+            }
+        }
+    }
+
+    /// Adds a dashpot's C (row by row, `dofs.len()` squared); fixed degrees of freedom are `None` and eliminated.
+    pub fn add_damping<'a, R: AsRef<[f64]> + 'a>(
+        &mut self,
+        dofs: &[Option<u32>],
+        damping: impl IntoIterator<Item = &'a R>,
+    ) {
+        for (&row, c) in dofs.iter().zip(damping) {
+            let Some(row) = row else { continue };
+            for (&column, &c) in dofs.iter().zip(c.as_ref()) {
+                if let Some(column) = column.filter(|c| *c <= row) {
+                    self.entries.push(Entry { column, row, k: 0.0, m: 0.0, c });
                 }
             }
         }
@@ -55,7 +72,7 @@ impl Assembly {
     pub fn finish(mut self) -> Result<Pencil, FactorError> {
         let n = self.n;
         // The diagonal is always there, also of a degree of freedom that no element holds: its pivot tells.
-        self.entries.extend((0..n as u32).map(|i| Entry { column: i, row: i, k: 0.0, m: 0.0 }));
+        self.entries.extend((0..n as u32).map(|i| Entry { column: i, row: i, k: 0.0, m: 0.0, c: 0.0 }));
         self.entries.sort_by_key(|e| (e.column, e.row));
         let (mut starts, mut rows, mut k, mut m) = (vec![0_u32; n + 1], Vec::new(), Vec::new(), Vec::new());
         let mut last = None;

@@ -3,6 +3,7 @@
 mod bridge;
 mod frame;
 mod irregularity;
+mod model;
 mod run;
 mod track;
 mod train;
@@ -10,6 +11,7 @@ mod train;
 pub use bridge::*;
 pub use frame::*;
 pub use irregularity::*;
+pub use model::*;
 pub use run::*;
 pub use track::*;
 pub use train::*;

@@ -1,0 +1,29 @@
+//! What every description of a bridge in space comes down to: equations, places, and rows that lead in and out.
+
+use ttb_dynamics::sparse::Assembly;
+
+use crate::deck::Row;
+use crate::structure::Monitor;
+
+/// A discretised bridge.
+pub struct Assembled {
+    /// K, M and C over the free degrees of freedom.
+    pub equations: Assembly,
+    /// Coordinates (x, y, z) of the nodes, m; empty where they are unknown. They only order the elimination.
+    pub nodes: Vec<[f64; 3]>,
+    /// Node of every degree of freedom, a position in `nodes` (or any grouping of degrees of freedom without them).
+    pub node_of: Vec<u32>,
+    /// In words, for messages: node and direction of a degree of freedom.
+    pub names: Names,
+    /// Displacement under every support of the track, as weights on degrees of freedom; forces act through the same.
+    pub supports: Vec<Row>,
+    /// Rows of the monitored points.
+    pub monitors: Vec<Row>,
+    /// The monitored points: which of `monitors` they read.
+    pub points: Vec<Monitor>,
+    /// Total mass, kg.
+    pub mass: f64,
+}
+
+/// Describes a degree of freedom by its number.
+pub type Names = Box<dyn Fn(usize) -> String + Send + Sync>;

@@ -1,0 +1,1 @@
+//! Makes finite-element models of bridges from a few numbers.

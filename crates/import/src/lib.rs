@@ -1,0 +1,1 @@
+//! Reads M, C and K written by other finite-element programs.
