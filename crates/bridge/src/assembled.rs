@@ -3,7 +3,6 @@
 use ttb_dynamics::sparse::Assembly;
 
 use crate::deck::Row;
-use crate::structure::Monitor;
 
 /// A discretised bridge.
 pub struct Assembled {
@@ -27,3 +26,14 @@ pub struct Assembled {
 
 /// Describes a degree of freedom by its number.
 pub type Names = Box<dyn Fn(usize) -> String + Send + Sync>;
+
+/// A monitored point: its rows in [`Assembled::monitors`].
+#[derive(Clone, Debug)]
+pub struct Monitor {
+    /// Name.
+    pub name: String,
+    /// Displacement.
+    pub motion: usize,
+    /// Bending moment.
+    pub moment: Option<usize>,
+}

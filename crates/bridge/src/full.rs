@@ -1,48 +1,55 @@
 //! All degrees of freedom: one sparse factor per step size, one product with M and one solve per new step.
 //!
-//! Rayleigh damping leaves K̂ = c_K K₀ + c_M M₀ with c_K = k(1 + a₁β), c_M = m(a₀ + a₁α). The right-hand side's product
-//! with K is expressed by K̂, so that K is never touched in the loop:
+//! Rayleigh damping leaves K̂ = c_K K₀ + c_M M₀ + a₁C₀ with c_K = k(1 + a₁β), c_M = m(a₀ + a₁α). The right-hand side's
+//! product with K is expressed by K̂, so that K is never touched in the loop:
 //!
 //! ```text
-//! q  = a₁u + a₄u̇ + a₅ü                      C q = αM q + βK q,   K q = (K̂ − M₀ c_M) k q / c_K
-//! p  = m M₀ (a₀u + a₂u̇ + a₃ü + α′q)         α′ = α − c_M kβ / (m c_K)
+//! q  = a₁u + a₄u̇ + a₅ü                      C q = αM q + βK q + C₀q,   K q = (K̂ − c_M M₀ − a₁C₀) k q / c_K
+//! p  = m M₀ (a₀u + a₂u̇ + a₃ü + α′q) + γ′C₀q   α′ = α − c_M kβ / (m c_K),   γ′ = 1 − a₁kβ / c_K
 //! g  = (kβ/c_K) q
 //! ```
 //!
 //! Modal damping keeps α = β = 0, adds Φ diag(2ζω) ΦᵀM q to what M₀ multiplies, and corrects the solve in closed form
 //! ([`ttb_dynamics::damping`]). Φ belongs to K₀ and M₀; under the factors it is Φ/√m with ω² k/m.
+//!
+//! A large system ([`crate::lazy`]) splits its solve: forward with p when a step begins, backward when u₁ is asked for.
 
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, PoisonError};
 
 use ttb_dynamics::damping::modal_correction;
+use ttb_dynamics::dense::Dense;
 use ttb_dynamics::factor::{Factor, FactorError};
 use ttb_dynamics::modes::Modes;
-use ttb_dynamics::newmark::{Motion, Newmark};
+use ttb_dynamics::newmark::Newmark;
 use ttb_dynamics::sparse::Pencil;
 use ttb_dynamics::vector::{add_scaled, dot};
 
-use crate::system::{History, Law, Step, System};
+use crate::lazy::Lazy;
+use crate::rows::Rows;
+use crate::system::{Base, Law, Step, System, Work};
 
-/// K₀, M₀, the factor of K₀, and the modes that modal damping needs.
+/// K₀, M₀, C₀, and the modes that modal damping needs.
 #[derive(Debug)]
 pub struct Full {
-    pencil: Pencil,
-    statics: Factor,
+    pencil: Arc<Pencil>,
+    /// Factor of K₀: needed while the start is sought, as large as that of K̂.
+    statics: Mutex<Option<Arc<Factor>>>,
     modes: Modes,
     /// M₀Φ.
     mass_shapes: Vec<Vec<f64>>,
 }
 
 impl Full {
-    /// From the assembled matrices; `modes` may be empty where no modal damping is asked for.
-    pub fn new(pencil: Pencil, statics: Factor, modes: Modes) -> Self {
+    /// From the assembled matrices and, if it is there already, the factor of K₀; `modes` may be empty where no modal
+    /// damping is asked for.
+    pub fn new(pencil: Arc<Pencil>, statics: Option<Arc<Factor>>, modes: Modes) -> Self {
         let product = |shape: &Vec<f64>| {
             let mut y = vec![0.0; shape.len()];
             pencil.add_mass(shape, &mut y);
             y
         };
         let mass_shapes = modes.shapes.iter().map(product).collect();
-        Self { pencil, statics, modes, mass_shapes }
+        Self { pencil, statics: Mutex::new(statics), modes, mass_shapes }
     }
 }
 
@@ -51,29 +58,53 @@ impl System for Full {
         self.pencil.ndof()
     }
 
-    fn statics(&self, law: &Law, x: &mut [f64]) {
-        self.statics.solve_in_place(x, &mut vec![0.0; x.len()]);
+    fn statics(&self, law: &Law, x: &mut [f64]) -> Result<(), FactorError> {
+        // Nothing that happens while the lock is held leaves it half-done.
+        let mut statics = self.statics.lock().unwrap_or_else(PoisonError::into_inner);
+        let factor = match &*statics {
+            Some(factor) => Arc::clone(factor),
+            None => Arc::clone(statics.insert(Arc::new(self.pencil.factor(1.0, 0.0, 0.0)?))),
+        };
+        drop(statics);
+        factor.solve_in_place(x, &mut vec![0.0; x.len()]);
         x.iter_mut().for_each(|x| *x /= law.stiffness);
+        Ok(())
     }
 
-    fn prepare(self: Arc<Self>, law: &Law, newmark: Newmark) -> Result<Box<dyn Step>, FactorError> {
+    fn rest_statics(&self) {
+        let mut statics = self.statics.lock().unwrap_or_else(PoisonError::into_inner);
+        // A small factor costs nothing to keep.
+        statics.take_if(|factor| factor.panels().is_some());
+    }
+
+    fn prepare(
+        self: Arc<Self>,
+        law: &Law,
+        newmark: Newmark,
+        rows: &Arc<Rows>,
+        supports: usize,
+    ) -> Result<Arc<dyn Step>, FactorError> {
         let [a0, a1, ..] = newmark.a;
         let (c_k, c_m) = (law.stiffness * (1.0 + a1 * law.beta), law.mass * (a0 + a1 * law.alpha));
-        let factor = self.pencil.factor(c_k, c_m)?;
+        let factor = self.pencil.factor(c_k, c_m, a1)?;
         let share = law.stiffness * law.beta / c_k;
         let frequency = law.stiffness / law.mass;
         let corrections = law.rates.iter().zip(&self.modes.omega2);
         let corrections = corrections.map(|(rate, w2)| modal_correction(*rate, frequency * w2, a0, a1) / law.mass);
-        Ok(Box::new(FullStep {
+        let corrections: Vec<f64> = corrections.collect();
+        let shapes = &self.modes.shapes[..corrections.len()];
+        let lazy = Lazy::new(&factor, rows, supports, shapes, &corrections);
+        Ok(Arc::new(FullStep {
             newmark,
             factor,
             mass: law.mass,
             alpha: law.alpha - c_m / law.mass * share,
+            dashpots: 1.0 - a1 * share,
             share,
             rates: law.rates.clone(),
-            corrections: corrections.collect(),
-            amplitudes: vec![0.0; law.rates.len()],
-            work: vec![0.0; self.unknowns()],
+            corrections,
+            rows: Arc::clone(rows),
+            lazy,
             system: self,
         }))
     }
@@ -87,14 +118,46 @@ struct FullStep {
     mass: f64,
     /// α′.
     alpha: f64,
+    /// γ′.
+    dashpots: f64,
     /// kβ/c_K.
     share: f64,
     /// 2ζω.
     rates: Vec<f64>,
     /// Diagonal of the closed form, over m.
     corrections: Vec<f64>,
-    amplitudes: Vec<f64>,
-    work: Vec<f64>,
+    rows: Arc<Rows>,
+    /// How a large system splits its solve.
+    lazy: Option<Lazy>,
+}
+
+impl FullStep {
+    fn shapes(&self) -> &[Vec<f64>] {
+        &self.system.modes.shapes[..self.corrections.len()]
+    }
+
+    /// p into `load`, g into `base.known`.
+    fn history(&self, base: &mut Base, load: &mut [f64], inertia: &mut [f64]) {
+        let n = load.len();
+        base.known.resize(n, 0.0);
+        let Base { motion, known, .. } = base;
+        let motion = motion.u.iter().zip(&motion.v).zip(&motion.a);
+        for (((y, q), load), ((u, v), a)) in inertia.iter_mut().zip(known.iter_mut()).zip(&mut *load).zip(motion) {
+            *q = self.newmark.damping(*u, *v, *a);
+            *y = self.mass * (self.newmark.inertia(*u, *v, *a) + self.alpha * *q);
+            *load = 0.0;
+        }
+        for ((rate, shape), mass_shape) in self.rates.iter().zip(self.shapes()).zip(&self.system.mass_shapes) {
+            let amplitude = self.mass * rate * dot(mass_shape, known);
+            add_scaled(amplitude, shape, inertia);
+        }
+        self.system.pencil.add_mass(inertia, load);
+        if self.system.pencil.has_dashpots() {
+            inertia.iter_mut().zip(&*known).for_each(|(y, q)| *y = self.dashpots * q);
+            self.system.pencil.add_damping(inertia, load);
+        }
+        known.iter_mut().for_each(|q| *q *= self.share);
+    }
 }
 
 impl Step for FullStep {
@@ -102,34 +165,39 @@ impl Step for FullStep {
         &self.newmark
     }
 
-    fn history(&mut self, motion: &Motion, history: &mut History) {
-        let History { load, known } = history;
-        let motion = motion.u.iter().zip(&motion.v).zip(&motion.a);
-        for (((y, q), load), ((u, v), a)) in self.work.iter_mut().zip(known.iter_mut()).zip(load.iter_mut()).zip(motion)
-        {
-            *q = self.newmark.damping(*u, *v, *a);
-            *y = self.mass * (self.newmark.inertia(*u, *v, *a) + self.alpha * *q);
-            *load = 0.0;
+    fn begin(&self, base: &mut Base, work: &mut Work) {
+        let n = self.system.unknowns();
+        let mut load = std::mem::take(&mut base.load);
+        [&mut load, &mut work.x, &mut work.y].into_iter().for_each(|v| v.resize(n, 0.0));
+        self.history(base, &mut load, &mut work.x);
+        base.amplitudes.clear();
+        base.amplitudes.extend(self.shapes().iter().map(|shape| dot(shape, &load)));
+        if let Some(lazy) = &self.lazy {
+            lazy.begin(&self.factor, base, &mut load, work);
         }
-        for ((rate, shape), mass_shape) in
-            self.rates.iter().zip(&self.system.modes.shapes).zip(&self.system.mass_shapes)
-        {
-            let amplitude = self.mass * rate * dot(mass_shape, known);
-            add_scaled(amplitude, shape, &mut self.work);
-        }
-        known.iter_mut().for_each(|q| *q *= self.share);
-        self.system.pencil.add_mass(&self.work, load);
+        base.load = load;
     }
 
-    fn solve(&mut self, history: &History, x: &mut [f64]) {
-        let shapes = &self.system.modes.shapes;
-        for ((amplitude, correction), shape) in self.amplitudes.iter_mut().zip(&self.corrections).zip(shapes) {
-            *amplitude = correction * dot(shape, x);
+    fn compliance(&self) -> Option<&Dense> {
+        self.lazy.as_ref().map(Lazy::compliance)
+    }
+
+    fn solve(&self, base: &Base, forces: &[f64], u: &mut Vec<f64>, work: &mut Work) {
+        let n = self.system.unknowns();
+        u.resize(n, 0.0);
+        match &self.lazy {
+            Some(lazy) => lazy.solve(&self.factor, base, forces, u, work),
+            None => {
+                work.x.resize(n, 0.0);
+                u.copy_from_slice(&base.load);
+                self.rows.add_transposed(forces, u);
+                self.factor.solve_in_place(u, &mut work.x);
+            }
         }
-        self.factor.solve_in_place(x, &mut self.work);
-        for (amplitude, shape) in self.amplitudes.iter().zip(shapes) {
-            add_scaled(-amplitude, shape, x);
+        for (i, (correction, shape)) in self.corrections.iter().zip(self.shapes()).enumerate() {
+            let amplitude = base.amplitudes[i] + self.rows.dot_transposed(forces, shape);
+            add_scaled(-correction * amplitude, shape, u);
         }
-        add_scaled(1.0, &history.known, x);
+        add_scaled(1.0, &base.known, u);
     }
 }

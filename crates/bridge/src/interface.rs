@@ -24,7 +24,7 @@ pub struct Parameters {
 
 /// The list for a structure.
 pub fn list(spec: &BridgeSpec, structure: &Structure) -> Interface {
-    let supports = 1..=structure.supports.len();
+    let supports = 1..=structure.supports;
     let forces = supports.clone().map(|i| {
         Variable::input(format!("support[{i}].force"), "N", "Force of the track on the bridge, positive down")
     });

@@ -1,4 +1,4 @@
-//! From one state to the next: sub-steps, what inputs mean over a step, and the history kept for repetitions.
+//! From one state to the next: sub-steps, what inputs mean over a step, and the bases kept for repetitions.
 //!
 //! Over a macro step [t, t + h] of m sub-steps of τ = h/m, i = 1 … m, with f_n the end force of the step before:
 //!
@@ -14,14 +14,18 @@ use std::sync::Arc;
 
 use ttb_coupling::ModelError;
 use ttb_dynamics::newmark::Motion;
+use ttb_dynamics::pool::Pool;
 
-use crate::state::{Data, State};
+use crate::lazy::answer;
+use crate::state::{Data, Pending, State};
 use crate::steps::Steps;
 use crate::structure::Structure;
-use crate::system::{History, Law};
+use crate::system::{Base, Law, Step, Work};
 
 /// More sub-steps than this in one macro step are a mistake.
 const MOST_SUBSTEPS: usize = 1_000_000;
+/// Bases kept: that of the step being repeated, and that of the state of rest where directional derivatives start.
+const KEPT: usize = 2;
 
 /// Support forces over a macro step.
 #[derive(Clone, Copy, Debug)]
@@ -32,30 +36,40 @@ pub struct Forces<'a> {
     pub rates: Option<&'a [f64]>,
 }
 
+/// What the outside sees of a macro step.
+#[derive(Clone, Debug, Default)]
+pub struct Seen {
+    /// R u, R u̇, R ü at its end; of the supports' ü nothing is asked.
+    pub end: Motion,
+    /// R u̇ at its begin.
+    pub velocity_before: Vec<f64>,
+}
+
+/// A kept base: the state and step size that it belongs to. Holding the state keeps its buffer from being reused, so the
+/// pointer identifies it.
+struct Kept {
+    state: State,
+    size: f64,
+    base: Arc<Base>,
+}
+
 /// Steps a structure under a law.
 pub struct March {
     law: Law,
     /// Step sizes.
     pub steps: Steps,
-    /// History of the first sub-step, and the state and size it belongs to. Holding the state keeps its buffer from
-    /// being reused, so the pointer identifies it.
-    first: History,
-    first_of: Option<(State, f64)>,
-    inner: History,
-    between: Motion,
+    kept: Vec<Kept>,
+    bases: Pool<Base>,
+    work: Work,
+    /// What the outside sees of the last step.
+    pub seen: Seen,
 }
 
 impl March {
     /// Nothing factorised yet.
-    pub fn new(law: Law, unknowns: usize) -> Self {
-        Self {
-            law,
-            steps: Steps::default(),
-            first: History::new(unknowns),
-            first_of: None,
-            inner: History::new(unknowns),
-            between: Motion::rest(unknowns),
-        }
+    pub fn new(law: Law) -> Self {
+        let (kept, bases) = (Vec::with_capacity(KEPT), Pool::default());
+        Self { law, steps: Steps::default(), kept, bases, work: Work::default(), seen: Seen::default() }
     }
 
     /// The law in force.
@@ -69,9 +83,32 @@ impl March {
     /// K̂ is not positive definite.
     pub fn set(&mut self, structure: &Structure, law: Law, [nominal, gamma, beta]: [f64; 3]) -> Result<(), ModelError> {
         self.law = law;
-        self.first_of = None;
+        self.kept.clear();
         self.steps.set(nominal, gamma, beta);
-        self.steps.get(nominal, &structure.system, &self.law).map(|_| ())
+        self.steps.get(nominal, structure, &self.law).map(|_| ())
+    }
+
+    /// The base of a step of `size` from `state`.
+    fn base(&mut self, step: &dyn Step, state: &State, size: f64) -> Arc<Base> {
+        if let Some(at) = self.kept.iter().position(|k| Arc::ptr_eq(&k.state, state) && k.size == size) {
+            self.kept[..=at].rotate_right(1);
+            return Arc::clone(&self.kept[0].base);
+        }
+        let base = self.new_base(step, |motion, work| state.complete(motion, work));
+        self.kept.truncate(KEPT - 1);
+        self.kept.insert(0, Kept { state: Arc::clone(state), size, base: Arc::clone(&base) });
+        base
+    }
+
+    /// A base from the motion that `fill` writes.
+    fn new_base(&mut self, step: &dyn Step, fill: impl FnOnce(&mut Motion, &mut Work)) -> Arc<Base> {
+        let mut base = self.bases.take(Base::default);
+        if let Some(own) = Arc::get_mut(&mut base) {
+            fill(&mut own.motion, &mut self.work);
+            step.begin(own, &mut self.work);
+        }
+        self.bases.give(&base);
+        base
     }
 
     /// From `old` over `h` seconds; `new` is overwritten.
@@ -93,20 +130,15 @@ impl March {
                 "a step of {h} s holds more than {MOST_SUBSTEPS} sub-steps of step_size = {nominal} s"
             )));
         }
-        let step = self.steps.get(size, &structure.system, &self.law)?;
+        let step = self.steps.get(size, structure, &self.law)?;
         new.force.clone_from(&old.force);
+        new.pending = None;
+        let mut base = self.base(&*step, old, size);
+        self.seen.velocity_before(structure, &*step, &base);
         for i in 1..=count {
-            let (history, before) = if i == 1 {
-                if !self.first_of.as_ref().is_some_and(|(state, of)| Arc::ptr_eq(state, old) && *of == size) {
-                    step.history(&old.motion, &mut self.first);
-                    self.first_of = Some((Arc::clone(old), size));
-                }
-                (&self.first, &old.motion)
-            } else {
-                std::mem::swap(&mut self.between, &mut new.motion);
-                step.history(&self.between, &mut self.inner);
-                (&self.inner, &self.between)
-            };
+            if i > 1 {
+                base = self.new_base(&*step, |motion, _| std::mem::swap(motion, &mut new.motion));
+            }
             match forces.rates {
                 Some(rates) => {
                     let time = if i == count { h } else { i as f64 * size };
@@ -115,11 +147,49 @@ impl March {
                 }
                 None => new.force.iter_mut().zip(forces.values).for_each(|(f, v)| *f = 2.0 * v - *f),
             }
-            new.motion.u.copy_from_slice(&history.load);
-            structure.supports.add_transposed(&new.force, &mut new.motion.u);
-            step.solve(history, &mut new.motion.u);
-            step.newmark().finish_all(before, &mut new.motion);
+            match step.compliance() {
+                Some(compliance) if i == count => {
+                    let end = &mut self.seen.end;
+                    answer(compliance, &base, &new.force, &mut end.u);
+                    [&mut end.v, &mut end.a].into_iter().for_each(|x| x.resize(base.free.len(), 0.0));
+                    step.newmark().finish_all(&base.rows, end);
+                    new.pending = Some(Pending { base: Arc::clone(&base), step: Arc::clone(&step) });
+                }
+                _ => {
+                    let Motion { u, v, a } = &mut new.motion;
+                    step.solve(&base, &new.force, u, &mut self.work);
+                    [v, a].into_iter().for_each(|x| x.resize(u.len(), 0.0));
+                    step.newmark().finish_all(&base.motion, &mut new.motion);
+                }
+            }
+        }
+        if new.pending.is_none() {
+            self.seen.read(structure, &new.motion);
         }
         Ok(())
+    }
+}
+
+impl Seen {
+    /// Reads a motion of all unknowns.
+    pub fn read(&mut self, structure: &Structure, motion: &Motion) {
+        let rows = &structure.rows;
+        [&mut self.end.u, &mut self.end.v, &mut self.end.a].into_iter().for_each(|x| x.resize(rows.len(), 0.0));
+        rows.multiply([&motion.u, &motion.v], [&mut self.end.u, &mut self.end.v]);
+        for i in structure.supports..rows.len() {
+            self.end.a[i] = rows.dot(i, &motion.a);
+        }
+    }
+
+    fn velocity_before(&mut self, structure: &Structure, step: &dyn Step, base: &Base) {
+        let rows = &structure.rows;
+        self.velocity_before.resize(rows.len(), 0.0);
+        if step.compliance().is_some() {
+            self.velocity_before.copy_from_slice(&base.rows.v);
+        } else {
+            for i in structure.supports..rows.len() {
+                self.velocity_before[i] = rows.dot(i, &base.motion.v);
+            }
+        }
     }
 }

@@ -5,7 +5,7 @@
 
 use ttb_coupling::ModelError;
 use ttb_dynamics::frame::FrameElement;
-use ttb_dynamics::sparse::{Assembly, Pencil};
+use ttb_dynamics::sparse::Assembly;
 
 /// A node.
 #[derive(Clone, Debug)]
@@ -83,17 +83,20 @@ impl Mesh {
     }
 
     /// K and M.
-    ///
-    /// # Errors
-    /// The sparse solver cannot be prepared.
-    pub fn assemble(&self) -> Result<Pencil, ModelError> {
+    pub fn assembly(&self) -> Assembly {
         let mut assembly = Assembly::new(self.ndof);
         for element in &self.elements {
             let rows = |m: ttb_dynamics::frame::Matrix6| -> [[f64; 6]; 6] { m.transpose().into() };
             let (k, m) = (rows(element.frame.stiffness()), rows(element.frame.mass_matrix()));
             assembly.add(&self.element_dofs(element), &k, &m);
         }
-        assembly.finish().map_err(|e| ModelError(format!("bridge: {e}")))
+        assembly
+    }
+
+    /// Position of the node of every degree of freedom.
+    pub fn node_of(&self) -> Vec<u32> {
+        let nodes = self.dofs.iter().zip(0..);
+        nodes.flat_map(|(dofs, node)| dofs.iter().flatten().map(move |_| node)).collect()
     }
 
     /// Mass of all elements, kg.

@@ -9,7 +9,7 @@ use ttb_dynamics::pool::Pool;
 use ttb_scenario::spec::BridgeSpec;
 
 use crate::interface::{self, Parameters};
-use crate::march::{Forces, March};
+use crate::march::{Forces, March, Seen};
 use crate::state::{Data, State};
 use crate::structure::Structure;
 
@@ -30,11 +30,11 @@ pub struct Bridge {
 
 /// How the acceleration of a point is read.
 #[derive(Clone, Copy)]
-enum Acceleration<'a> {
+enum Acceleration {
     /// ü of the state.
     State,
     /// (u̇ − u̇₀)/h, with held inputs.
-    Mean(&'a Motion, f64),
+    Mean(f64),
 }
 
 impl Bridge {
@@ -44,7 +44,7 @@ impl Bridge {
     /// Anything in the specification that cannot be: the message names it.
     pub fn new(spec: BridgeSpec) -> Result<Self, ModelError> {
         let structure = Structure::new(&spec)?;
-        let (unknowns, supports) = (structure.system.unknowns(), structure.supports.len());
+        let (unknowns, supports) = (structure.system.unknowns(), structure.supports);
         let law = structure.law(structure.damping_ratio(), 1.0, 1.0)?;
         let rest = Arc::new(Data::rest(unknowns, supports));
         Ok(Self {
@@ -52,7 +52,7 @@ impl Bridge {
             structure,
             experiment: (spec.step, spec.end),
             parameters: None,
-            march: March::new(law, unknowns),
+            march: March::new(law),
             state: Arc::clone(&rest),
             rest,
             pool: Pool::default(),
@@ -62,7 +62,7 @@ impl Bridge {
 
     /// Degrees of freedom of the finite-element model.
     pub fn ndof(&self) -> usize {
-        self.structure.ndof()
+        self.structure.ndof
     }
 
     /// Unknowns solved for: degrees of freedom, or modes.
@@ -72,7 +72,7 @@ impl Bridge {
 
     /// Total mass under the parameters in force, kg.
     pub fn mass(&self) -> f64 {
-        self.structure.mass() * self.march.law().mass
+        self.structure.mass * self.march.law().mass
     }
 
     /// The lowest natural frequencies under the parameters in force, Hz.
@@ -87,8 +87,14 @@ impl Bridge {
 
     /// A buffer for the next state, and its only holder.
     fn buffer(&mut self) -> State {
-        let (unknowns, supports) = (self.unknowns(), self.structure.supports.len());
+        let (unknowns, supports) = (self.unknowns(), self.structure.supports);
         self.pool.take(|| Data::rest(unknowns, supports))
+    }
+
+    /// Writes all outputs of what the march saw last.
+    fn read_out(&self, acceleration: Acceleration, values: &mut Values) {
+        let outputs = &mut values.all[self.interface.outputs()];
+        read_out(&self.structure, self.march.law().stiffness, &self.march.seen, acceleration, outputs);
     }
 
     /// Takes a written buffer as the state and gives the old one back.
@@ -98,28 +104,29 @@ impl Bridge {
     }
 }
 
-/// Writes all outputs of a state; `stiffness` is the factor that moments share.
-fn read_out(structure: &Structure, stiffness: f64, data: &Data, acceleration: Acceleration, outputs: &mut [f64]) {
-    let Motion { u, v, a } = &data.motion;
-    let supports = structure.supports.len();
+/// Writes all outputs; `stiffness` is the factor that moments share.
+fn read_out(structure: &Structure, stiffness: f64, seen: &Seen, acceleration: Acceleration, outputs: &mut [f64]) {
+    let Motion { u, v, a } = &seen.end;
+    let supports = structure.supports;
+    let (displacements, outputs) = outputs.split_at_mut(supports);
+    let (velocities, outputs) = outputs.split_at_mut(supports);
+    displacements.copy_from_slice(&u[..supports]);
+    velocities.copy_from_slice(&v[..supports]);
     let mut outputs = outputs.iter_mut();
     let mut put = |value: f64| {
         if let Some(out) = outputs.next() {
             *out = value;
         }
     };
-    (0..supports).for_each(|i| put(structure.supports.dot(i, u)));
-    (0..supports).for_each(|i| put(structure.supports.dot(i, v)));
-    let monitors = &structure.monitors;
     for point in &structure.points {
-        let velocity = monitors.dot(point.motion, v);
-        put(monitors.dot(point.motion, u));
-        put(velocity);
+        let row = point.motion;
+        put(u[row]);
+        put(v[row]);
         put(match acceleration {
-            Acceleration::State => monitors.dot(point.motion, a),
-            Acceleration::Mean(before, h) => (velocity - monitors.dot(point.motion, &before.v)) / h,
+            Acceleration::State => a[row],
+            Acceleration::Mean(h) => (v[row] - seen.velocity_before[row]) / h,
         });
-        point.moment.into_iter().for_each(|row| put(stiffness * monitors.dot(row, u)));
+        point.moment.into_iter().for_each(|row| put(stiffness * u[row]));
     }
 }
 
@@ -170,16 +177,18 @@ impl Model for Bridge {
         let mut state = self.buffer();
         let data = only_holder(&mut state)?;
         data.force.copy_from_slice(&values.all[self.interface.inputs()]);
-        data.motion.numbers_mut().for_each(|x| *x = 0.0);
-        self.structure.supports.add_transposed(&data.force, &mut data.motion.u);
-        self.structure.system.statics(self.march.law(), &mut data.motion.u);
-        read_out(
-            &self.structure,
-            self.march.law().stiffness,
-            data,
-            Acceleration::State,
-            &mut values.all[self.interface.outputs()],
-        );
+        data.pending = None;
+        let unknowns = self.structure.system.unknowns();
+        let Motion { u, v, a } = &mut data.motion;
+        for x in [&mut *u, v, a] {
+            x.clear();
+            x.resize(unknowns, 0.0);
+        }
+        self.structure.rows.add_transposed(&data.force, u);
+        let solved = self.structure.system.statics(self.march.law(), u);
+        solved.map_err(|e| ModelError(format!("bridge: {e}")))?;
+        self.march.seen.read(&self.structure, &data.motion);
+        self.read_out(Acceleration::State, values);
         self.accept(state);
         self.last_step = self.march.steps.nominal();
         Ok(())
@@ -187,6 +196,7 @@ impl Model for Bridge {
 
     fn start(&mut self, _values: &mut Values) -> Result<(), ModelError> {
         // The state is static equilibrium already: no velocity, no acceleration, f_n the inputs.
+        self.structure.system.rest_statics();
         Ok(())
     }
 
@@ -196,15 +206,7 @@ impl Model for Bridge {
         let mut state = self.buffer();
         let data = only_holder(&mut state)?;
         self.march.run(&self.structure, &self.state, Forces { values: &values.all[inputs], rates }, h, data)?;
-        let mean = Acceleration::Mean(&self.state.motion, h);
-        let acceleration = if values.has_rates { Acceleration::State } else { mean };
-        read_out(
-            &self.structure,
-            self.march.law().stiffness,
-            data,
-            acceleration,
-            &mut values.all[self.interface.outputs()],
-        );
+        self.read_out(if values.has_rates { Acceleration::State } else { Acceleration::Mean(h) }, values);
         self.accept(state);
         self.last_step = h;
         Ok(())
@@ -223,7 +225,7 @@ impl Model for Bridge {
     }
 
     fn read_state(&self, bytes: &[u8]) -> Result<State, ModelError> {
-        Data::read(self.unknowns(), self.structure.supports.len(), bytes).map(Arc::new)
+        Data::read(self.unknowns(), self.structure.supports, bytes).map(Arc::new)
     }
 
     /// The step is linear: the outputs' change is the step itself, from rest, with the seed as input. With interpolated
@@ -234,14 +236,8 @@ impl Model for Bridge {
         let constant = vec![0.0; seed.len()];
         let forces = Forces { values: seed, rates: has_rates.then_some(&constant[..]) };
         self.march.run(&self.structure, &self.rest, forces, h, data)?;
-        let mean = Acceleration::Mean(&self.rest.motion, h);
-        read_out(
-            &self.structure,
-            self.march.law().stiffness,
-            data,
-            if has_rates { Acceleration::State } else { mean },
-            out,
-        );
+        let acceleration = if has_rates { Acceleration::State } else { Acceleration::Mean(h) };
+        read_out(&self.structure, self.march.law().stiffness, &self.march.seen, acceleration, out);
         self.pool.give(&state);
         Ok(())
     }

@@ -1,6 +1,6 @@
-//! Rows of weights over the degrees of freedom: what the outside sees of the structure, and where its forces act.
+//! Rows of weights over the unknowns: what the outside sees of the structure, and where its forces act.
 
-use ttb_dynamics::modes::Modes;
+use ttb_dynamics::dense::Dense;
 use ttb_dynamics::vector::{add_scaled, dot};
 
 use crate::deck::Row;
@@ -18,7 +18,7 @@ pub enum Rows {
         weights: Vec<f64>,
     },
     /// Every row in full.
-    Dense(Vec<Vec<f64>>),
+    Dense(Dense),
 }
 
 impl Rows {
@@ -38,7 +38,7 @@ impl Rows {
     pub fn len(&self) -> usize {
         match self {
             Self::Sparse { starts, .. } => starts.len() - 1,
-            Self::Dense(rows) => rows.len(),
+            Self::Dense(rows) => rows.rows(),
         }
     }
 
@@ -47,36 +47,82 @@ impl Rows {
         self.len() == 0
     }
 
+    /// Degrees of freedom of a sparse row; of a dense one none.
+    pub fn columns(&self, i: usize) -> &[u32] {
+        match self {
+            Self::Sparse { starts, columns, .. } => &columns[starts[i] as usize..starts[i + 1] as usize],
+            Self::Dense(_) => &[],
+        }
+    }
+
+    /// Weights of a sparse row in the order of its columns; all of a dense one.
+    pub fn weights(&self, i: usize) -> &[f64] {
+        match self {
+            Self::Sparse { starts, weights, .. } => &weights[starts[i] as usize..starts[i + 1] as usize],
+            Self::Dense(rows) => rows.row(i),
+        }
+    }
+
     /// Row i times u.
     pub fn dot(&self, i: usize, u: &[f64]) -> f64 {
         match self {
-            Self::Sparse { starts, columns, weights } => {
-                let range = starts[i] as usize..starts[i + 1] as usize;
-                let row = columns[range.clone()].iter().zip(&weights[range]);
+            Self::Sparse { .. } => {
+                let row = self.columns(i).iter().zip(self.weights(i));
                 row.map(|(&column, weight)| weight * u[column as usize]).sum()
             }
-            Self::Dense(rows) => dot(&rows[i], u),
+            Self::Dense(rows) => dot(rows.row(i), u),
         }
     }
 
-    /// load ← load + Rowsᵀ f.
-    pub fn add_transposed(&self, f: &[f64], load: &mut [f64]) {
+    /// All rows times several u; dense rows are read once.
+    pub fn multiply<const N: usize>(&self, u: [&[f64]; N], r: [&mut [f64]; N]) {
         match self {
-            Self::Sparse { starts, columns, weights } => {
-                for (f, bounds) in f.iter().zip(starts.windows(2)) {
-                    let range = bounds[0] as usize..bounds[1] as usize;
-                    for (&column, weight) in columns[range.clone()].iter().zip(&weights[range]) {
-                        load[column as usize] += weight * f;
-                    }
+            Self::Sparse { .. } => {
+                for (r, u) in r.into_iter().zip(u) {
+                    r.iter_mut().enumerate().for_each(|(i, r)| *r = self.dot(i, u));
                 }
             }
-            Self::Dense(rows) => f.iter().zip(rows).for_each(|(f, row)| add_scaled(*f, row, load)),
+            Self::Dense(rows) => rows.multiply(u, r),
         }
     }
 
-    /// The same rows over modal coordinates: Rows Φ.
-    pub fn project(&self, modes: &Modes) -> Self {
-        let row = |i| modes.shapes.iter().map(|shape| self.dot(i, shape)).collect();
-        Self::Dense((0..self.len()).map(row).collect())
+    /// load ← load + f · row i.
+    pub fn add_row(&self, i: usize, f: f64, load: &mut [f64]) {
+        match self {
+            Self::Sparse { .. } => {
+                for (&column, weight) in self.columns(i).iter().zip(self.weights(i)) {
+                    load[column as usize] += weight * f;
+                }
+            }
+            Self::Dense(rows) => add_scaled(f, rows.row(i), load),
+        }
+    }
+
+    /// load ← load + Bᵀ f, B the first rows, as many as there are forces.
+    pub fn add_transposed(&self, f: &[f64], load: &mut [f64]) {
+        match self {
+            Self::Sparse { .. } => f.iter().enumerate().for_each(|(i, f)| self.add_row(i, *f, load)),
+            Self::Dense(rows) => rows.add_transposed(f, load),
+        }
+    }
+
+    /// fᵀ B u, B the first rows, as many as there are forces.
+    pub fn dot_transposed(&self, f: &[f64], u: &[f64]) -> f64 {
+        f.iter().enumerate().map(|(i, f)| f * self.dot(i, u)).sum()
+    }
+
+    /// The same rows over modal coordinates: R Φ.
+    pub fn project(&self, shapes: &[Vec<f64>]) -> Self {
+        let numbers = (0..self.len()).flat_map(|i| shapes.iter().map(move |shape| self.dot(i, shape)));
+        Self::Dense(Dense::new(shapes.len(), numbers.collect()))
+    }
+
+    /// The same sparse rows over unknowns in another order: column c becomes `position[c]`.
+    pub fn renumbered(&self, position: &[u32]) -> Self {
+        let mut rows = self.clone();
+        if let Self::Sparse { columns, .. } = &mut rows {
+            columns.iter_mut().for_each(|c| *c = position[*c as usize]);
+        }
+        rows
     }
 }

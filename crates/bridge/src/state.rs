@@ -5,13 +5,27 @@ use std::sync::Arc;
 use ttb_coupling::ModelError;
 use ttb_dynamics::newmark::Motion;
 
-/// What a step starts from.
-#[derive(Clone, Debug, PartialEq)]
+use crate::system::{Base, Step, Work};
+
+/// What a step starts from. After a step of a large system the motion is not there yet: the step that led here and the
+/// forces at its end say what it is.
+#[derive(Clone, Default)]
 pub struct Data {
-    /// Motion of all unknowns.
+    /// Motion of all unknowns, unless it is pending.
     pub motion: Motion,
+    /// The step that led here, while the motion is pending.
+    pub pending: Option<Pending>,
     /// f_n: support forces at the end of the last step, N.
     pub force: Vec<f64>,
+}
+
+/// A step whose end is known to the outside but not to all unknowns.
+#[derive(Clone)]
+pub struct Pending {
+    /// Where it began.
+    pub base: Arc<Base>,
+    /// Its factor.
+    pub step: Arc<dyn Step>,
 }
 
 /// A shared state: saving is a pointer.
@@ -20,12 +34,27 @@ pub type State = Arc<Data>;
 impl Data {
     /// At rest.
     pub fn rest(unknowns: usize, supports: usize) -> Self {
-        Self { motion: Motion::rest(unknowns), force: vec![0.0; supports] }
+        Self { motion: Motion::rest(unknowns), pending: None, force: vec![0.0; supports] }
+    }
+
+    /// Motion of all unknowns into `motion`.
+    pub fn complete(&self, motion: &mut Motion, work: &mut Work) {
+        match &self.pending {
+            None => motion.clone_from(&self.motion),
+            Some(Pending { base, step }) => {
+                step.solve(base, &self.force, &mut motion.u, work);
+                let n = motion.u.len();
+                [&mut motion.v, &mut motion.a].into_iter().for_each(|x| x.resize(n, 0.0));
+                step.newmark().finish_all(&base.motion, motion);
+            }
+        }
     }
 
     /// Appends all numbers, little endian: u, u̇, ü, f_n.
     pub fn write(&self, bytes: &mut Vec<u8>) {
-        bytes.extend(self.motion.numbers().chain(&self.force).flat_map(|x| x.to_le_bytes()));
+        let mut motion = Motion::default();
+        self.complete(&mut motion, &mut Work::default());
+        bytes.extend(motion.numbers().chain(&self.force).flat_map(|x| x.to_le_bytes()));
     }
 
     /// Reads what [`Data::write`] wrote.

@@ -5,7 +5,8 @@ use std::sync::Arc;
 use ttb_coupling::ModelError;
 use ttb_dynamics::newmark::Newmark;
 
-use crate::system::{Law, Step, System};
+use crate::structure::Structure;
+use crate::system::{Law, Step};
 
 /// Step sizes within this relative distance are the same.
 const SAME: f64 = 1e-9;
@@ -19,7 +20,7 @@ pub struct Steps {
     nominal: f64,
     gamma: f64,
     beta: f64,
-    known: Vec<(f64, Box<dyn Step>)>,
+    known: Vec<(f64, Arc<dyn Step>)>,
 }
 
 impl Steps {
@@ -49,17 +50,18 @@ impl Steps {
     ///
     /// # Errors
     /// A size so small that K̂ overflows: K and M themselves have passed before.
-    pub fn get(&mut self, size: f64, system: &Arc<dyn System>, law: &Law) -> Result<&mut dyn Step, ModelError> {
+    pub fn get(&mut self, size: f64, structure: &Structure, law: &Law) -> Result<Arc<dyn Step>, ModelError> {
         if let Some(position) = self.known.iter().position(|(known, _)| *known == size) {
             self.known[..=position].rotate_right(1);
         } else {
             let newmark = Newmark::new(self.gamma, self.beta, size);
-            let step = Arc::clone(system).prepare(law, newmark);
+            let Structure { system, rows, supports, .. } = structure;
+            let step = Arc::clone(system).prepare(law, newmark, rows, *supports);
             let step = step.map_err(|e| ModelError(format!("bridge: a step of {size} s cannot be factorised: {e}")))?;
             self.known.truncate(KEPT - 1);
             self.known.insert(0, (size, step));
         }
-        Ok(self.known[0].1.as_mut())
+        Ok(Arc::clone(&self.known[0].1))
     }
 }
 

@@ -4,45 +4,37 @@ use std::sync::Arc;
 
 use ttb_coupling::ModelError;
 use ttb_dynamics::damping::rayleigh;
-use ttb_dynamics::factor::{Factor, FactorError};
+use ttb_dynamics::factor::{Factor, FactorError, Layout};
 use ttb_dynamics::modes::{Modes, lowest};
 use ttb_dynamics::sparse::Pencil;
 use ttb_scenario::spec::{BridgeSpec, StructureSpec};
-use ttb_scenario::types::{Damping, Direction, Point, RayleighAt};
+use ttb_scenario::types::{Damping, RayleighAt};
 
-use crate::deck::{Deck, Row};
+use crate::assembled::{Assembled, Monitor, Names};
+use crate::deck::Row;
 use crate::full::Full;
-use crate::mesh::Mesh;
+use crate::plane;
 use crate::reduced::Reduced;
 use crate::rows::Rows;
 use crate::system::{Law, System};
 
-/// A monitored point: its rows in [`Structure::monitors`].
-#[derive(Clone, Debug)]
-pub struct Monitor {
-    /// Name.
-    pub name: String,
-    /// Displacement.
-    pub motion: usize,
-    /// Bending moment.
-    pub moment: Option<usize>,
-}
-
 /// The structure.
 pub struct Structure {
-    mesh: Mesh,
-    pencil: Pencil,
-    statics: Factor,
+    /// Degrees of freedom of the finite-element model.
+    pub ndof: usize,
+    /// Mass, kg, without a factor.
+    pub mass: f64,
+    pencil: Arc<Pencil>,
     /// ω² of the modes that damping or reduction need, lowest first.
     omega2: Vec<f64>,
     damping: Damping,
     /// Its equations.
     pub system: Arc<dyn System>,
-    /// One row per support.
-    pub supports: Rows,
-    /// Rows of the monitored points.
-    pub monitors: Rows,
-    /// The monitored points.
+    /// R: one row per support, then those of the monitored points.
+    pub rows: Arc<Rows>,
+    /// Number of supports.
+    pub supports: usize,
+    /// The monitored points; they read [`Structure::rows`].
     pub points: Vec<Monitor>,
 }
 
@@ -52,47 +44,32 @@ impl Structure {
     /// # Errors
     /// Anything in the specification that cannot be: the message names it.
     pub fn new(spec: &BridgeSpec) -> Result<Self, ModelError> {
-        let mesh = match &spec.structure {
-            StructureSpec::Beams { spans, continuous } => {
-                if let Some(point) = spec.points.iter().find(|p| p.direction == Direction::X) {
-                    return Err(ModelError(format!("bridge: point {}: beams move only along z", point.name)));
-                }
-                crate::beams::mesh(spans, *continuous)?
-            }
-            StructureSpec::Frame(frame) => crate::frame::mesh(frame)?,
+        let assembled = match &spec.structure {
+            StructureSpec::Beams { .. } | StructureSpec::Frame(_) => plane::assemble(spec)?,
         };
-        let pencil = mesh.assemble()?;
-        let statics = pencil.factor(1.0, 0.0).map_err(|e| explain(&mesh, e))?;
+        Self::from_assembled(assembled, spec)
+    }
+
+    fn from_assembled(assembled: Assembled, spec: &BridgeSpec) -> Result<Self, ModelError> {
+        let Assembled { equations, nodes, node_of, names, supports, monitors, mut points, mass } = assembled;
+        let ndof = equations.ndof();
+        let layout = Layout { node_of, place: nodes, last: eliminated_last(&supports, ndof), order: Vec::new() };
+        let pencil = Arc::new(equations.finish_with(&layout).map_err(in_bridge)?);
+        let statics = Arc::new(pencil.factor(1.0, 0.0, 0.0).map_err(|e| explain(&names, e))?);
         let needed = modes_needed(spec);
         let modes =
             if needed == 0 { Modes::default() } else { lowest(&pencil, &statics, needed).map_err(in_bridge)? };
-        let deck = Deck::new(&mesh)?;
-        let mut supports = support_rows(&mesh, &deck, &spec.supports)?;
-        let (mut monitors, points) = monitor_rows(&mesh, &deck, &spec.points)?;
+        let first_monitor = supports.len();
+        for point in &mut points {
+            point.motion += first_monitor;
+            point.moment.iter_mut().for_each(|row| *row += first_monitor);
+        }
+        let rows = Rows::new(&[supports, monitors].concat());
         let omega2 = modes.omega2.clone();
-        let system: Arc<dyn System> = if let Some(count) = spec.modes {
-            let mut kept = modes;
-            kept.shapes.truncate(count);
-            kept.omega2.truncate(count);
-            supports = supports.project(&kept);
-            monitors = monitors.project(&kept);
-            Arc::new(Reduced::new(kept.omega2))
-        } else {
-            let damped = if matches!(spec.damping, Damping::Modal { .. }) { modes } else { Modes::default() };
-            Arc::new(Full::new(pencil.clone(), statics.clone(), damped))
-        };
+        let (system, rows) = solver(spec, &pencil, statics, modes, rows);
         let damping = spec.damping.clone();
-        Ok(Self { mesh, pencil, statics, omega2, damping, system, supports, monitors, points })
-    }
-
-    /// Degrees of freedom of the finite-element model.
-    pub fn ndof(&self) -> usize {
-        self.mesh.ndof
-    }
-
-    /// Mass of all elements, kg, without a factor.
-    pub fn mass(&self) -> f64 {
-        self.mesh.mass()
+        let rows = Arc::new(rows);
+        Ok(Self { ndof, mass, pencil, omega2, damping, system, rows, supports: first_monitor, points })
     }
 
     /// The damping ratio of the specification.
@@ -146,19 +123,47 @@ impl Structure {
     /// # Errors
     /// More are asked for than there are.
     pub fn natural_frequencies(&self, count: usize) -> Result<Vec<f64>, ModelError> {
-        let modes = lowest(&self.pencil, &self.statics, count).map_err(in_bridge)?;
+        let statics = self.pencil.factor(1.0, 0.0, 0.0).map_err(in_bridge)?;
+        let modes = lowest(&self.pencil, &statics, count).map_err(in_bridge)?;
         Ok(modes.frequencies().collect())
     }
+}
+
+/// All degrees of freedom, or the lowest modes.
+fn solver(
+    spec: &BridgeSpec,
+    pencil: &Arc<Pencil>,
+    statics: Arc<Factor>,
+    mut modes: Modes,
+    rows: Rows,
+) -> (Arc<dyn System>, Rows) {
+    if let Some(count) = spec.modes {
+        modes.shapes.truncate(count);
+        modes.omega2.truncate(count);
+        let rows = rows.project(&modes.shapes);
+        return (Arc::new(Reduced::new(modes.omega2)), rows);
+    }
+    let damped = if matches!(spec.damping, Damping::Modal { .. }) { modes } else { Modes::default() };
+    (Arc::new(Full::new(Arc::clone(pencil), Some(statics), damped)), rows)
+}
+
+/// The supports' degrees of freedom, if eliminating them last adds little to the factor.
+fn eliminated_last(supports: &[Row], ndof: usize) -> Vec<u32> {
+    let mut dofs: Vec<u32> = supports.iter().flatten().map(|(dof, _)| *dof).collect();
+    dofs.sort_unstable();
+    dofs.dedup();
+    // They fill a triangle; a factor has some hundred numbers a column.
+    if dofs.len() * dofs.len() / 2 <= 20 * ndof { dofs } else { Vec::new() }
 }
 
 fn in_bridge(error: impl std::fmt::Display) -> ModelError {
     ModelError(format!("bridge: {error}"))
 }
 
-fn explain(mesh: &Mesh, error: FactorError) -> ModelError {
+fn explain(names: &Names, error: FactorError) -> ModelError {
     match error {
         FactorError::NotPositive { dof } => {
-            let place = mesh.describe(dof);
+            let place = names(dof);
             ModelError(format!("bridge: mechanism: nothing holds the {place} (or its mesh is far too fine)"))
         }
         other @ FactorError::Symbolic(_) => in_bridge(other),
@@ -174,58 +179,4 @@ fn modes_needed(spec: &BridgeSpec) -> usize {
         _ => 0,
     };
     damping.max(spec.modes.unwrap_or(0))
-}
-
-fn support_rows(mesh: &Mesh, deck: &Deck, stations: &[f64]) -> Result<Rows, ModelError> {
-    let row = |(number, &x): (usize, &f64)| {
-        let row = deck.displacement(mesh, x, [0.0, 1.0]);
-        row.ok_or_else(|| off_deck(&format!("support[{number}]"), x, deck))
-    };
-    let rows: Result<Vec<Row>, ModelError> = (1..).zip(stations).map(row).collect();
-    Ok(Rows::new(&rows?))
-}
-
-fn monitor_rows(mesh: &Mesh, deck: &Deck, points: &[Point]) -> Result<(Rows, Vec<Monitor>), ModelError> {
-    let (mut rows, mut monitors) = (Vec::new(), Vec::new());
-    for point in points {
-        let name = &point.name;
-        let (motion, moment) = match (point.x, &point.node) {
-            (Some(x), None) => on_deck(mesh, deck, point, x)?,
-            (None, Some(node)) => (at_node(mesh, name, node, point.direction)?, None),
-            _ => return Err(ModelError(format!("bridge: point {name} needs either x or node"))),
-        };
-        rows.push(motion);
-        let motion = rows.len() - 1;
-        let moment = moment.map(|row| {
-            rows.push(row);
-            rows.len() - 1
-        });
-        monitors.push(Monitor { name: name.clone(), motion, moment });
-    }
-    Ok((Rows::new(&rows), monitors))
-}
-
-fn on_deck(mesh: &Mesh, deck: &Deck, point: &Point, x: f64) -> Result<(Row, Option<Row>), ModelError> {
-    let along = match point.direction {
-        Direction::X => [1.0, 0.0],
-        Direction::Z => [0.0, 1.0],
-    };
-    let motion = deck.displacement(mesh, x, along);
-    let motion = motion.ok_or_else(|| off_deck(&format!("point {}", point.name), x, deck))?;
-    Ok((motion, deck.moment(mesh, x)))
-}
-
-fn at_node(mesh: &Mesh, point: &str, node: &str, direction: Direction) -> Result<Row, ModelError> {
-    let found = mesh.nodes.iter().position(|n| n.name == node);
-    let found = found.ok_or_else(|| ModelError(format!("bridge: point {point}: there is no node named {node}")))?;
-    let dof = mesh.dofs[found][match direction {
-        Direction::X => 0,
-        Direction::Z => 1,
-    }];
-    Ok(dof.map(|dof| (dof, 1.0)).into_iter().collect())
-}
-
-fn off_deck(what: &str, x: f64, deck: &Deck) -> ModelError {
-    let [begin, end] = deck.extent();
-    ModelError(format!("bridge: {what} at x = {x} m is off the deck, which reaches from {begin} m to {end} m"))
 }

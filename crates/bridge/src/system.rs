@@ -2,18 +2,26 @@
 //!
 //! ```text
 //! K = k K₀,  M = m M₀              k, m: factors on stiffness and mass
-//! C = αM + βK                      Rayleigh, or MΦ diag(2ζω) ΦᵀM over the lowest modes
-//! u₁ = K̂⁻¹ (p + f₁) + g            p, g: History, what a step owes to the state it starts from
+//! C = αM + βK + C₀                 Rayleigh and dashpots, or MΦ diag(2ζω) ΦᵀM over the lowest modes
+//! u₁ = K̂⁻¹ (p + Bᵀf₁) + g          p, g: what a step owes to the state it starts from
+//! r₁ = R u₁ = r⁰ + S f₁            S = R K̂⁻¹ Bᵀ: the compliance between all that the outside sees
 //! ```
 //!
-//! A history serves every repetition of a step from the same state: one solve each. A [`System`] holds what no parameter
-//! touches (K₀, M₀, the factor of K₀, modes); a [`Step`] what belongs to one step size. There are two: all degrees of
-//! freedom ([`crate::full`]) and modal coordinates ([`crate::reduced`]).
+//! B are the rows of the supports; R those of the supports and of the monitored points. A [`Base`] holds p, g and r⁰: it
+//! serves every repetition of a step from the same state. A small system answers a repetition with a solve. A large one
+//! answers with S alone, a dense product, and u₁ waits until the next step asks for it: one sparse solve a step, however
+//! often the step is repeated.
+//!
+//! A [`System`] holds what no parameter touches (K₀, M₀, modes); a [`Step`] what belongs to one step size. There are two:
+//! all degrees of freedom ([`crate::full`]) and modal coordinates ([`crate::reduced`]).
 
 use std::sync::Arc;
 
+use ttb_dynamics::dense::Dense;
 use ttb_dynamics::factor::FactorError;
 use ttb_dynamics::newmark::{Motion, Newmark};
+
+use crate::rows::Rows;
 
 /// Stiffness, mass and damping under the parameters in force.
 #[derive(Clone, Debug, PartialEq)]
@@ -30,20 +38,32 @@ pub struct Law {
     pub rates: Vec<f64>,
 }
 
-/// What a step owes to the state it starts from.
-#[derive(Clone, Debug)]
-pub struct History {
-    /// p: stands beside the forces.
+/// What a step owes to the state it starts from. Vectors that a system does not need stay empty.
+#[derive(Clone, Debug, Default)]
+pub struct Base {
+    /// u, u̇, ü at the step's begin.
+    pub motion: Motion,
+    /// p, as the system keeps it.
     pub load: Vec<f64>,
-    /// g: is added to the solution.
+    /// g.
     pub known: Vec<f64>,
+    /// Φᵀp, with modal damping.
+    pub amplitudes: Vec<f64>,
+    /// R u, R u̇, R ü at the step's begin.
+    pub rows: Motion,
+    /// r⁰: R u₁ without forces.
+    pub free: Vec<f64>,
 }
 
-impl History {
-    /// For `n` unknowns.
-    pub fn new(n: usize) -> Self {
-        Self { load: vec![0.0; n], known: vec![0.0; n] }
-    }
+/// Buffers of a step.
+#[derive(Clone, Debug, Default)]
+pub struct Work {
+    /// Over the unknowns.
+    pub x: Vec<f64>,
+    /// Over the unknowns.
+    pub y: Vec<f64>,
+    /// Of the sweeps.
+    pub buffer: Vec<f64>,
 }
 
 /// A structure's equations.
@@ -52,23 +72,38 @@ pub trait System: Send + Sync {
     fn unknowns(&self) -> usize;
 
     /// Static solution: `x` holds the load and receives u.
-    fn statics(&self, law: &Law, x: &mut [f64]);
+    ///
+    /// # Errors
+    /// K is not positive definite.
+    fn statics(&self, law: &Law, x: &mut [f64]) -> Result<(), FactorError>;
 
-    /// Factorises for one step size.
+    /// Static solutions are not needed for a while.
+    fn rest_statics(&self) {}
+
+    /// Factorises for one step size; R are all rows, B the first `supports` of them.
     ///
     /// # Errors
     /// K̂ is not positive definite.
-    fn prepare(self: Arc<Self>, law: &Law, newmark: Newmark) -> Result<Box<dyn Step>, FactorError>;
+    fn prepare(
+        self: Arc<Self>,
+        law: &Law,
+        newmark: Newmark,
+        rows: &Arc<Rows>,
+        supports: usize,
+    ) -> Result<Arc<dyn Step>, FactorError>;
 }
 
-/// A factorised step; allocates nothing.
-pub trait Step: Send {
+/// A factorised step; allocates nothing once its buffers have grown.
+pub trait Step: Send + Sync {
     /// Newmark's constants.
     fn newmark(&self) -> &Newmark;
 
-    /// The history of a step from `motion`.
-    fn history(&mut self, motion: &Motion, history: &mut History);
+    /// Fills a base from its motion.
+    fn begin(&self, base: &mut Base, work: &mut Work);
 
-    /// `x` holds p + f₁ and receives u₁.
-    fn solve(&mut self, history: &History, x: &mut [f64]);
+    /// S, where repetitions go through it.
+    fn compliance(&self) -> Option<&Dense>;
+
+    /// u₁ under the forces f₁.
+    fn solve(&self, base: &Base, forces: &[f64], u: &mut Vec<f64>, work: &mut Work);
 }

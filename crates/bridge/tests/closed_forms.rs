@@ -27,8 +27,8 @@ fn bending(k: f64) -> f64 {
 }
 
 fn frequencies(mesh: &Mesh, count: usize) -> Vec<f64> {
-    let pencil = mesh.assemble().unwrap();
-    lowest(&pencil, &pencil.factor(1.0, 0.0).unwrap(), count).unwrap().frequencies().collect()
+    let pencil = mesh.assembly().finish().unwrap();
+    lowest(&pencil, &pencil.factor(1.0, 0.0, 0.0).unwrap(), count).unwrap().frequencies().collect()
 }
 
 /// Displacement [u_x, u_z, θ] of a node under unit loads `load` at another.
@@ -39,8 +39,8 @@ fn deflection(frame: &Frame, loaded: &str, load: [f64; 3], seen: &str) -> [f64; 
     for (dof, load) in dofs(loaded).into_iter().zip(load) {
         dof.into_iter().for_each(|dof| u[dof as usize] = load);
     }
-    let pencil = mesh.assemble().unwrap();
-    pencil.factor(1.0, 0.0).unwrap().solve_in_place(&mut u, &mut vec![0.0; mesh.ndof]);
+    let pencil = mesh.assembly().finish().unwrap();
+    pencil.factor(1.0, 0.0, 0.0).unwrap().solve_in_place(&mut u, &mut vec![0.0; mesh.ndof]);
     dofs(seen).map(|dof| dof.map_or(0.0, |dof| u[dof as usize]))
 }
 

@@ -1,19 +1,18 @@
-//! Sparse factorisation P A Pᵀ = L D Lᵀ with the approximate-minimum-degree order; symbolic once, numeric often.
+//! Sparse factorisation of symmetric matrices, symbolic once, numeric often: L D Lᵀ by columns for small models, L Lᵀ by
+//! panels ([`crate::supernodal`]) for large ones.
 //!
-//! The numbers come from faer's simplicial factorisation; the two triangular sweeps are our own loops over its factor,
-//! because for the few hundred degrees of freedom of a plane model the general solver's overhead costs more than the
-//! arithmetic. A supernodal kernel for large models can replace the inside of [`Factor`] without touching its users.
+//! For the few hundred degrees of freedom of a plane model the panels' overhead costs more than the arithmetic.
 
 use std::sync::Arc;
 
-use faer::Par;
-use faer::dyn_stack::{MemBuffer, MemStack};
-use faer::linalg::cholesky::ldlt::factor::{LdltError, LdltRegularization};
 use faer::sparse::linalg::SupernodalThreshold;
-use faer::sparse::linalg::cholesky::{
-    CholeskySymbolicParams, SymbolicCholesky, SymbolicCholeskyRaw, SymmetricOrdering, factorize_symbolic_cholesky,
-};
-use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
+use faer::sparse::linalg::cholesky::{CholeskySymbolicParams, SymmetricOrdering, factorize_symbolic_cholesky};
+use faer::sparse::{SparseColMatRef, SymbolicSparseColMat, SymbolicSparseColMatRef};
+
+use crate::order::{Graph, nested_dissection, postordered};
+use crate::simplicial;
+use crate::supernodal::{Numbers, Pattern};
+use crate::sweeps::Which;
 
 /// Why a matrix cannot be factorised.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -32,21 +31,29 @@ pub enum FactorError {
 /// A pivot below this times its diagonal entry is rounding, not stiffness. The bending of a beam of n elements leaves
 /// about 2/n³, which is still larger for 25,000 elements.
 const LEAST_PIVOT: f64 = 1e-13;
+/// From so many degrees of freedom on the factor goes by panels.
+const LARGE: usize = 3000;
 
-/// Order and pattern of the factor.
-pub struct Symbolic {
-    cholesky: SymbolicCholesky<u32>,
-    /// Degree of freedom of each row of the factor.
-    order: Vec<u32>,
-    /// Columns of L below the diagonal.
-    starts: Vec<u32>,
-    rows: Vec<u32>,
+/// What helps to order the elimination of a large model.
+#[derive(Clone, Debug, Default)]
+pub struct Layout {
+    /// Node of every degree of freedom; empty: each is its own.
+    pub node_of: Vec<u32>,
+    /// Coordinates (x, y, z) of every node, m; empty: unknown.
+    pub place: Vec<[f64; 3]>,
+    /// Degrees of freedom to eliminate last.
+    pub last: Vec<u32>,
+    /// The order itself, when it is known already; empty: it is not.
+    pub order: Vec<u32>,
 }
 
-impl std::fmt::Debug for Symbolic {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("Symbolic").field("n", &self.order.len()).field("entries", &self.rows.len()).finish()
-    }
+/// Order and pattern of the factor.
+#[derive(Debug)]
+pub enum Symbolic {
+    /// By columns.
+    Simplicial(simplicial::Pattern),
+    /// By panels.
+    Supernodal(Pattern),
 }
 
 impl Symbolic {
@@ -54,120 +61,132 @@ impl Symbolic {
     ///
     /// # Errors
     /// [`FactorError::Symbolic`] when memory or indices do not suffice.
-    pub fn new(pattern: SymbolicSparseColMatRef<'_, u32>) -> Result<Self, FactorError> {
-        let parameters = CholeskySymbolicParams {
-            supernodal_flop_ratio_threshold: SupernodalThreshold::FORCE_SIMPLICIAL,
-            ..Default::default()
-        };
-        let cholesky = factorize_symbolic_cholesky(pattern, faer::Side::Lower, SymmetricOrdering::Amd, parameters)
-            .map_err(|e| FactorError::Symbolic(e.to_string()))?;
-        let n = pattern.ncols();
-        let order = cholesky.perm().map_or_else(|| (0..n as u32).collect(), |perm| perm.arrays().0.to_vec());
-        let SymbolicCholeskyRaw::Simplicial(l) = cholesky.raw() else {
-            return Err(FactorError::Symbolic("a simplicial factor was asked for".into()));
-        };
-        let (mut starts, mut rows) = (vec![0], Vec::with_capacity(l.len_val() - n));
-        for column in l.col_ptr().windows(2) {
-            rows.extend_from_slice(&l.row_idx()[column[0] as usize + 1..column[1] as usize]);
-            starts.push(rows.len() as u32);
+    pub fn new(pattern: SymbolicSparseColMatRef<'_, u32>, layout: &Layout) -> Result<Self, FactorError> {
+        if pattern.ncols() < LARGE {
+            return Ok(Self::Simplicial(simplicial::Pattern::new(pattern)?));
         }
-        Ok(Self { cholesky, order, starts, rows })
+        let known = layout.order.len() == pattern.ncols();
+        let order = if known { layout.order.clone() } else { order(pattern, layout)? };
+        Ok(Self::Supernodal(Pattern::new(pattern, order)?))
+    }
+
+    /// Number of negative eigenvalues of `a` (Sylvester's law of inertia).
+    ///
+    /// # Errors
+    /// A pivot is zero.
+    pub fn count_negative(&self, a: SparseColMatRef<'_, u32, f64>) -> Result<usize, FactorError> {
+        match self {
+            Self::Simplicial(pattern) => Ok(pattern.factorise(a)?.negative_pivots()),
+            Self::Supernodal(pattern) => pattern.count_negative(a),
+        }
+    }
+
+    /// The order of elimination of a large model.
+    pub fn order(&self) -> Option<&[u32]> {
+        match self {
+            Self::Simplicial(_) => None,
+            Self::Supernodal(pattern) => Some(&pattern.order),
+        }
     }
 }
 
-/// L and D.
+/// An order of elimination for a large model.
+fn order(pattern: SymbolicSparseColMatRef<'_, u32>, layout: &Layout) -> Result<Vec<u32>, FactorError> {
+    let n = pattern.ncols();
+    let (starts, rows) = (pattern.col_ptr(), pattern.row_idx());
+    let own: Vec<u32>;
+    let node_of = if layout.node_of.len() == n {
+        &layout.node_of
+    } else {
+        own = (0..n as u32).collect();
+        &own
+    };
+    let graph = Graph::new(starts, rows, node_of);
+    let nodes = if layout.place.len() == graph.nodes() {
+        nested_dissection(&graph, &layout.place)
+    } else {
+        minimum_degree(&graph)?
+    };
+    let mut rank = vec![0_u32; nodes.len()];
+    nodes.iter().zip(0..).for_each(|(&node, at)| rank[node as usize] = at);
+    let mut last = vec![false; n];
+    layout.last.iter().for_each(|&dof| last[dof as usize] = true);
+    let mut order: Vec<u32> = (0..n as u32).collect();
+    order.sort_by_key(|&dof| (last[dof as usize], rank[node_of[dof as usize] as usize]));
+    Ok(postordered(starts, rows, &order))
+}
+
+/// Approximate minimum degree of the nodes' graph.
+fn minimum_degree(graph: &Graph) -> Result<Vec<u32>, FactorError> {
+    let (starts, rows) = graph.lower();
+    let pattern = SymbolicSparseColMat::new_checked(graph.nodes(), graph.nodes(), starts, None, rows);
+    let parameters = CholeskySymbolicParams {
+        supernodal_flop_ratio_threshold: SupernodalThreshold::FORCE_SIMPLICIAL,
+        ..Default::default()
+    };
+    let found = factorize_symbolic_cholesky(pattern.as_ref(), faer::Side::Lower, SymmetricOrdering::Amd, parameters)
+        .map_err(|e| FactorError::Symbolic(e.to_string()))?;
+    Ok(found.perm().map_or_else(|| (0..graph.nodes() as u32).collect(), |perm| perm.arrays().0.to_vec()))
+}
+
+/// A factor.
 #[derive(Clone, Debug)]
 pub struct Factor {
     symbolic: Arc<Symbolic>,
-    /// L below the diagonal, by columns.
-    l: Vec<f64>,
-    /// 1/D.
-    inverse_d: Vec<f64>,
+    numbers: FactorNumbers,
+}
+
+#[derive(Clone, Debug)]
+enum FactorNumbers {
+    Simplicial(simplicial::Numbers),
+    Supernodal(Numbers),
 }
 
 impl Factor {
-    /// Factorises `a` (lower triangle, of the analysed pattern), definite or not: no pivoting.
-    ///
-    /// # Errors
-    /// A pivot is zero or not finite.
-    pub fn indefinite(symbolic: &Arc<Symbolic>, a: SparseColMatRef<'_, u32, f64>) -> Result<Self, FactorError> {
-        let (cholesky, par) = (&symbolic.cholesky, Par::Seq);
-        let mut values = vec![0.0; cholesky.len_val()];
-        let mut memory = MemBuffer::new(cholesky.factorize_numeric_ldlt_scratch::<f64>(par, Default::default()));
-        let none = LdltRegularization::default();
-        cholesky
-            .factorize_numeric_ldlt(
-                &mut values,
-                a,
-                faer::Side::Lower,
-                none,
-                par,
-                MemStack::new(&mut memory),
-                Default::default(),
-            )
-            .map_err(|LdltError::ZeroPivot { index }| {
-                let row = index.saturating_sub(1); // faer counts pivots from 1
-                FactorError::NotPositive { dof: symbolic.order.get(row).map_or(row, |dof| *dof as usize) }
-            })?;
-        let (mut l, mut inverse_d) =
-            (Vec::with_capacity(symbolic.rows.len()), Vec::with_capacity(symbolic.order.len()));
-        let mut values = values.into_iter();
-        for column in symbolic.starts.windows(2) {
-            inverse_d.extend(values.next().map(|d| 1.0 / d));
-            l.extend(values.by_ref().take((column[1] - column[0]) as usize));
-        }
-        Ok(Self { symbolic: Arc::clone(symbolic), l, inverse_d })
-    }
-
     /// Factorises `a` (lower triangle, of the analysed pattern, with its diagonal first in each column).
     ///
     /// # Errors
     /// [`FactorError::NotPositive`] when it is not positive definite by a margin above rounding.
     pub fn positive(symbolic: &Arc<Symbolic>, a: SparseColMatRef<'_, u32, f64>) -> Result<Self, FactorError> {
-        let factor = Self::indefinite(symbolic, a)?;
-        for (&dof, &inverse_d) in symbolic.order.iter().zip(&factor.inverse_d) {
-            let diagonal = a.val()[a.col_ptr()[dof as usize] as usize];
-            let positive = inverse_d > 0.0 && inverse_d * LEAST_PIVOT * diagonal < 1.0;
-            if !positive {
-                return Err(FactorError::NotPositive { dof: dof as usize });
-            }
-        }
-        Ok(factor)
+        let numbers = match &**symbolic {
+            Symbolic::Simplicial(pattern) => FactorNumbers::Simplicial(pattern.factorise_positive(a, LEAST_PIVOT)?),
+            Symbolic::Supernodal(pattern) => FactorNumbers::Supernodal(pattern.factorise(a, LEAST_PIVOT)?),
+        };
+        Ok(Self { symbolic: Arc::clone(symbolic), numbers })
     }
 
-    /// Number of negative eigenvalues of A (Sylvester's law of inertia).
-    pub fn negative_pivots(&self) -> usize {
-        self.inverse_d.iter().filter(|d| **d < 0.0).count()
-    }
-
-    /// Entries of L and D: what one sweep reads.
+    /// Numbers of the factor: what one sweep reads.
     pub fn entries(&self) -> usize {
-        self.l.len() + self.inverse_d.len()
+        match (&*self.symbolic, &self.numbers) {
+            (_, FactorNumbers::Simplicial(numbers)) => numbers.entries(),
+            (Symbolic::Supernodal(pattern), _) => pattern.all_entries(),
+            _ => 0,
+        }
     }
 
     /// x ← A⁻¹ x; `scratch` has the length of `x` and is overwritten.
     pub fn solve_in_place(&self, x: &mut [f64], scratch: &mut [f64]) {
-        let Symbolic { order, starts, rows, .. } = &*self.symbolic;
-        let y = scratch;
-        for (y, &dof) in y.iter_mut().zip(order) {
-            *y = x[dof as usize];
-        }
-        let column = |j: usize| {
-            let range = starts[j] as usize..starts[j + 1] as usize;
-            rows[range.clone()].iter().zip(&self.l[range])
-        };
-        for j in 0..y.len() {
-            let yj = y[j];
-            for (&i, l) in column(j) {
-                y[i as usize] -= l * yj;
+        match (&*self.symbolic, &self.numbers) {
+            (Symbolic::Simplicial(pattern), FactorNumbers::Simplicial(numbers)) => {
+                pattern.solve_in_place(numbers, x, scratch);
             }
+            (Symbolic::Supernodal(pattern), FactorNumbers::Supernodal(numbers)) => {
+                let mut buffer = Vec::new();
+                pattern.gather(x, scratch);
+                pattern.forward(numbers, scratch, &mut buffer, Which::All);
+                pattern.backward(numbers, scratch, &mut buffer, Which::All);
+                pattern.scatter(scratch, x);
+            }
+            // A factor and its pattern are made together, in `positive`.
+            _ => {}
         }
-        for j in (0..y.len()).rev() {
-            let yj = y[j] * self.inverse_d[j];
-            y[j] = column(j).fold(yj, |yj, (&i, l)| yj - l * y[i as usize]);
-        }
-        for (y, &dof) in y.iter().zip(order) {
-            x[dof as usize] = *y;
+    }
+
+    /// Pattern and numbers by panels, of a large model.
+    pub fn panels(&self) -> Option<(&Pattern, &Numbers)> {
+        match (&*self.symbolic, &self.numbers) {
+            (Symbolic::Supernodal(pattern), FactorNumbers::Supernodal(numbers)) => Some((pattern, numbers)),
+            _ => None,
         }
     }
 }

@@ -5,11 +5,16 @@
 pub mod band;
 pub mod beam;
 pub mod damping;
+pub mod dense;
 pub mod factor;
 pub mod frame;
 pub mod modes;
 pub mod newmark;
+pub mod order;
 pub mod pool;
+pub mod simplicial;
 pub mod sparse;
+pub mod supernodal;
+pub mod sweeps;
 pub mod twisted;
 pub mod vector;

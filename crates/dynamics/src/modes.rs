@@ -224,7 +224,7 @@ mod tests {
     #[test]
     fn a_chain_has_its_closed_form_modes() {
         let pencil = chains(1, 200, false);
-        let modes = lowest(&pencil, &pencil.factor(1.0, 0.0).unwrap(), 12).unwrap();
+        let modes = lowest(&pencil, &pencil.factor(1.0, 0.0, 0.0).unwrap(), 12).unwrap();
         for (j, w2) in modes.omega2.iter().enumerate() {
             assert!((w2 / omega2(j + 1, 200) - 1.0).abs() < 1e-11, "mode {}: {w2}", j + 1);
         }
@@ -240,7 +240,7 @@ mod tests {
     #[test]
     fn every_copy_of_a_repeated_mode_is_found() {
         let pencil = chains(11, 30, false);
-        let modes = lowest(&pencil, &pencil.factor(1.0, 0.0).unwrap(), 25).unwrap();
+        let modes = lowest(&pencil, &pencil.factor(1.0, 0.0, 0.0).unwrap(), 25).unwrap();
         for (j, w2) in modes.omega2.iter().enumerate() {
             assert!((w2 / omega2(j / 11 + 1, 30) - 1.0).abs() < 1e-10, "mode {}: {w2}", j + 1);
         }
@@ -249,7 +249,7 @@ mod tests {
     #[test]
     fn all_modes_of_a_small_system_and_no_more() {
         let pencil = chains(1, 5, false);
-        let factor = pencil.factor(1.0, 0.0).unwrap();
+        let factor = pencil.factor(1.0, 0.0, 0.0).unwrap();
         let modes = lowest(&pencil, &factor, 5).unwrap();
         assert!(modes.omega2.iter().enumerate().all(|(j, w2)| (w2 / omega2(j + 1, 5) - 1.0).abs() < 1e-12));
         assert_eq!(lowest(&pencil, &factor, 6), Err(ModesError::TooMany { asked: 6, available: 5 }));
@@ -258,7 +258,7 @@ mod tests {
     #[test]
     fn what_has_no_mass_has_no_mode() {
         let pencil = chains(1, 8, true);
-        let factor = pencil.factor(1.0, 0.0).unwrap();
+        let factor = pencil.factor(1.0, 0.0, 0.0).unwrap();
         assert_eq!(lowest(&pencil, &factor, 5), Err(ModesError::TooMany { asked: 5, available: 4 }));
         // Masses 1 at every second of springs 1: a chain of springs 1/2.
         let modes = lowest(&pencil, &factor, 4).unwrap();

@@ -1,20 +1,22 @@
-//! Sparse symmetric matrices of a finite-element model: K and M assembled on one common pattern.
+//! Sparse symmetric matrices of a finite-element model: K, M and C assembled on one common pattern.
 //!
-//! Only the lower triangle is stored, by columns, the diagonal first. Because K and M share the pattern, every
-//! combination c_K K + c_M M that a time integrator or an eigenvalue solver factorises has it too: the ordering and the
+//! Only the lower triangle is stored, by columns, the diagonal first. Because they share the pattern, every
+//! combination c_K K + c_M M + c_C C that a time integrator or an eigenvalue solver factorises has it too: the ordering and the
 //! symbolic factorisation are made once, see [`Pencil::factor`].
 
 use std::sync::Arc;
 
 use faer::sparse::{SparseColMatRef, SymbolicSparseColMat};
 
-use crate::factor::{Factor, FactorError, Symbolic};
+use crate::factor::{Factor, FactorError, Layout, Symbolic};
 
 /// Collects element matrices.
 #[derive(Clone, Debug, Default)]
 pub struct Assembly {
     n: usize,
     entries: Vec<Entry>,
+    /// Of C, its numbers in `k`.
+    damping: Vec<Entry>,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -23,13 +25,12 @@ struct Entry {
     row: u32,
     k: f64,
     m: f64,
-    c: f64,
 }
 
 impl Assembly {
     /// An empty system of `n` degrees of freedom.
     pub fn new(n: usize) -> Self {
-        Self { n, entries: Vec::new() }
+        Self { n, ..Self::default() }
     }
 
     /// Adds an element's K and M (row by row, `dofs.len()` squared); fixed degrees of freedom are `None` and eliminated.
@@ -43,7 +44,7 @@ impl Assembly {
             let Some(row) = row else { continue };
             for ((&column, &k), &m) in dofs.iter().zip(k.as_ref()).zip(m.as_ref()) {
                 if let Some(column) = column.filter(|c| *c <= row) {
-                    self.entries.push(Entry { column, row, k, m, c: 0.0 });
+                    self.entries.push(Entry { column, row, k, m });
                 }
             }
         }
@@ -59,49 +60,117 @@ impl Assembly {
             let Some(row) = row else { continue };
             for (&column, &c) in dofs.iter().zip(c.as_ref()) {
                 if let Some(column) = column.filter(|c| *c <= row) {
-                    self.entries.push(Entry { column, row, k: 0.0, m: 0.0, c });
+                    self.add_entry_of_damping(row, column, c);
                 }
             }
         }
     }
 
-    /// Sums what fell on the same place, in the order it was added, and analyses the pattern.
+    /// Adds one entry of K and M in the lower triangle, `row` ≥ `column`.
+    pub fn add_entry(&mut self, row: u32, column: u32, k: f64, m: f64) {
+        self.entries.push(Entry { column, row, k, m });
+    }
+
+    /// Adds one entry of C in the lower triangle, `row` ≥ `column`.
+    pub fn add_entry_of_damping(&mut self, row: u32, column: u32, c: f64) {
+        self.damping.push(Entry { column, row, k: c, m: 0.0 });
+    }
+
+    /// Number of degrees of freedom.
+    pub fn ndof(&self) -> usize {
+        self.n
+    }
+
+    /// Sums what fell on the same place and analyses the pattern; degrees of freedom are ordered one by one.
     ///
     /// # Errors
     /// [`FactorError::Symbolic`].
-    pub fn finish(mut self) -> Result<Pencil, FactorError> {
-        let n = self.n;
-        // The diagonal is always there, also of a degree of freedom that no element holds: its pivot tells.
-        self.entries.extend((0..n as u32).map(|i| Entry { column: i, row: i, k: 0.0, m: 0.0, c: 0.0 }));
-        self.entries.sort_by_key(|e| (e.column, e.row));
-        let (mut starts, mut rows, mut k, mut m) = (vec![0_u32; n + 1], Vec::new(), Vec::new(), Vec::new());
-        let mut last = None;
-        for e in self.entries {
-            if last == Some((e.column, e.row)) {
-                // `last` is set, so both vectors have a last entry.
-                k.last_mut().into_iter().for_each(|k| *k += e.k);
-                m.last_mut().into_iter().for_each(|m| *m += e.m);
-            } else {
-                starts[e.column as usize + 1] += 1;
-                rows.push(e.row);
-                k.push(e.k);
-                m.push(e.m);
-            }
-            last = Some((e.column, e.row));
-        }
-        (0..n).for_each(|j| starts[j + 1] += starts[j]);
-        let pattern = SymbolicSparseColMat::new_checked(n, n, starts, None, rows);
-        let symbolic = Arc::new(Symbolic::new(pattern.as_ref())?);
-        Ok(Pencil { pattern, k, m, symbolic })
+    pub fn finish(self) -> Result<Pencil, FactorError> {
+        self.finish_with(&Layout::default())
+    }
+
+    /// Sums what fell on the same place and analyses the pattern.
+    ///
+    /// # Errors
+    /// [`FactorError::Symbolic`].
+    pub fn finish_with(mut self, layout: &Layout) -> Result<Pencil, FactorError> {
+        let n = self.n as u32;
+        let nothing = |column, row| Entry { column, row, k: 0.0, m: 0.0 };
+        // C shares the pattern. The diagonal is always there, also of a degree of freedom that no element holds: its
+        // pivot tells.
+        self.entries.extend(self.damping.iter().map(|e| nothing(e.column, e.row)));
+        self.entries.extend((0..n).map(|i| nothing(i, i)));
+        let entries = merged(self.entries);
+        let damping = merged(self.damping);
+        let (starts, rows) = columns_of(self.n, &entries);
+        let k = entries.iter().map(|e| e.k).collect();
+        let m = entries.iter().map(|e| e.m).collect();
+        let mass = Symmetric::new(self.n, entries.into_iter().map(|e| Entry { k: e.m, ..e }));
+        let damping = Symmetric::new(self.n, damping.into_iter());
+        let pattern = SymbolicSparseColMat::new_checked(self.n, self.n, starts, None, rows);
+        let symbolic = Arc::new(Symbolic::new(pattern.as_ref(), layout)?);
+        Ok(Pencil { pattern, k, m, mass, damping, symbolic })
     }
 }
 
-/// K and M on one pattern.
+/// Sorted by columns, one entry a place.
+fn merged(mut entries: Vec<Entry>) -> Vec<Entry> {
+    entries.sort_by_key(|e| (e.column, e.row));
+    entries.dedup_by(|next, kept| {
+        let same = (next.column, next.row) == (kept.column, kept.row);
+        if same {
+            kept.k += next.k;
+            kept.m += next.m;
+        }
+        same
+    });
+    entries.shrink_to_fit();
+    entries
+}
+
+/// Starts of the columns, and rows, of sorted entries.
+fn columns_of(n: usize, entries: &[Entry]) -> (Vec<u32>, Vec<u32>) {
+    let mut starts = vec![0_u32; n + 1];
+    entries.iter().for_each(|e| starts[e.column as usize + 1] += 1);
+    (0..n).for_each(|j| starts[j + 1] += starts[j]);
+    (starts, entries.iter().map(|e| e.row).collect())
+}
+
+/// A sparse symmetric matrix to multiply with: lower triangle by columns, without zeros.
+#[derive(Clone, Debug)]
+struct Symmetric {
+    starts: Vec<u32>,
+    rows: Vec<u32>,
+    values: Vec<f64>,
+}
+
+impl Symmetric {
+    /// From sorted entries, their numbers in `k`.
+    fn new(n: usize, entries: impl Iterator<Item = Entry>) -> Self {
+        let mut this = Self { starts: vec![0; n + 1], rows: Vec::new(), values: Vec::new() };
+        for e in entries.filter(|e| e.k != 0.0) {
+            this.starts[e.column as usize + 1] += 1;
+            this.rows.push(e.row);
+            this.values.push(e.k);
+        }
+        (0..n).for_each(|j| this.starts[j + 1] += this.starts[j]);
+        this
+    }
+
+    /// y ← y + A x.
+    fn add_product(&self, x: &[f64], y: &mut [f64]) {
+        add_product(&self.starts, &self.rows, &self.values, x, y);
+    }
+}
+
+/// K, M and the dashpots' C on one pattern.
 #[derive(Clone, Debug)]
 pub struct Pencil {
     pattern: SymbolicSparseColMat<u32>,
     k: Vec<f64>,
     m: Vec<f64>,
+    mass: Symmetric,
+    damping: Symmetric,
     symbolic: Arc<Symbolic>,
 }
 
@@ -110,21 +179,53 @@ impl Pencil {
     pub fn ndof(&self) -> usize {
         self.pattern.ncols()
     }
+    /// Entries of the common pattern, lower triangle.
+    pub fn entries(&self) -> usize {
+        self.k.len()
+    }
     /// y ← y + K x.
     pub fn add_stiffness(&self, x: &[f64], y: &mut [f64]) {
-        add_product(&self.pattern, &self.k, x, y);
+        add_product(self.pattern.col_ptr(), self.pattern.row_idx(), &self.k, x, y);
     }
     /// y ← y + M x.
     pub fn add_mass(&self, x: &[f64], y: &mut [f64]) {
-        add_product(&self.pattern, &self.m, x, y);
+        self.mass.add_product(x, y);
+    }
+    /// Whether there are dashpots.
+    pub fn has_dashpots(&self) -> bool {
+        !self.damping.values.is_empty()
+    }
+    /// y ← y + C x, C of the dashpots alone.
+    pub fn add_damping(&self, x: &[f64], y: &mut [f64]) {
+        self.damping.add_product(x, y);
+    }
+    /// Entries of C, lower triangle: row, column, number.
+    pub fn damping_entries(&self) -> impl Iterator<Item = (u32, u32, f64)> {
+        let Symmetric { starts, rows, values } = &self.damping;
+        (0..self.ndof()).flat_map(move |j| {
+            let column = starts[j] as usize..starts[j + 1] as usize;
+            rows[column.clone()].iter().zip(&values[column]).map(move |(&i, &c)| (i, j as u32, c))
+        })
+    }
+    /// Diagonals of K and M.
+    pub fn diagonals(&self) -> impl Iterator<Item = (f64, f64)> {
+        let starts = self.pattern.col_ptr();
+        starts[..self.ndof()].iter().map(|&at| (self.k[at as usize], self.m[at as usize]))
+    }
+    /// The order of elimination, once found, for [`Layout::order`]; `None` where a small model makes its own.
+    pub fn order(&self) -> Option<&[u32]> {
+        self.symbolic.order()
     }
 
-    /// Factorises c_K K + c_M M.
+    /// Factorises c_K K + c_M M + c_C C.
     ///
     /// # Errors
     /// It is not positive definite.
-    pub fn factor(&self, c_k: f64, c_m: f64) -> Result<Factor, FactorError> {
-        let values = self.combine(c_k, c_m);
+    pub fn factor(&self, c_k: f64, c_m: f64, c_c: f64) -> Result<Factor, FactorError> {
+        let mut values = self.combine(c_k, c_m);
+        if c_c != 0.0 {
+            self.add_to_pattern(c_c, &mut values);
+        }
         Factor::positive(&self.symbolic, SparseColMatRef::new(self.pattern.as_ref(), &values))
     }
 
@@ -132,24 +233,36 @@ impl Pencil {
     /// inertia; Parlett, The Symmetric Eigenvalue Problem, 1998, section 3.3). `None` when σ hits one exactly.
     pub fn count_below(&self, sigma: f64) -> Option<usize> {
         let values = self.combine(1.0, -sigma);
-        let factor = Factor::indefinite(&self.symbolic, SparseColMatRef::new(self.pattern.as_ref(), &values)).ok()?;
-        Some(factor.negative_pivots())
+        self.symbolic.count_negative(SparseColMatRef::new(self.pattern.as_ref(), &values)).ok()
     }
 
     fn combine(&self, c_k: f64, c_m: f64) -> Vec<f64> {
         self.k.iter().zip(&self.m).map(|(k, m)| c_k * k + c_m * m).collect()
     }
+
+    /// values ← values + factor C.
+    fn add_to_pattern(&self, factor: f64, values: &mut [f64]) {
+        let (starts, rows) = (self.pattern.col_ptr(), self.pattern.row_idx());
+        for (i, j, c) in self.damping_entries() {
+            let column = starts[j as usize] as usize..starts[j as usize + 1] as usize;
+            if let Ok(at) = rows[column.clone()].binary_search(&i) {
+                values[column.start + at] += factor * c;
+            }
+        }
+    }
 }
 
-fn add_product(pattern: &SymbolicSparseColMat<u32>, values: &[f64], x: &[f64], y: &mut [f64]) {
-    let (starts, rows) = (pattern.col_ptr(), pattern.row_idx());
+fn add_product(starts: &[u32], rows: &[u32], values: &[f64], x: &[f64], y: &mut [f64]) {
     for (j, &xj) in x.iter().enumerate() {
         let column = starts[j] as usize..starts[j + 1] as usize;
-        let mut entries = rows[column.clone()].iter().zip(&values[column]);
-        let mut yj = entries.next().map_or(0.0, |(_, diagonal)| diagonal * xj);
-        for (&i, a) in entries {
-            y[i as usize] += a * xj;
-            yj += a * x[i as usize];
+        let mut yj = 0.0;
+        for (&i, a) in rows[column.clone()].iter().zip(&values[column]) {
+            if i as usize == j {
+                y[j] += a * xj;
+            } else {
+                y[i as usize] += a * xj;
+                yj += a * x[i as usize];
+            }
         }
         y[j] += yj;
     }
@@ -176,7 +289,7 @@ mod tests {
         let mut y = vec![0.0; 7];
         chain.add_stiffness(&x, &mut y);
         chain.add_mass(&x, &mut y);
-        let factor = chain.factor(1.0, 1.0).unwrap();
+        let factor = chain.factor(1.0, 1.0, 0.0).unwrap();
         factor.solve_in_place(&mut y, &mut [0.0; 7]);
         assert!(x.iter().zip(&y).all(|(x, y)| (x - y).abs() < 1e-12));
     }
@@ -196,7 +309,7 @@ mod tests {
     fn a_loose_degree_of_freedom_is_found() {
         let mut assembly = Assembly::new(3);
         assembly.add(&[Some(0), Some(2)], &[[1.0, -1.0], [-1.0, 1.0]], &[[1.0, 0.0], [0.0, 1.0]]);
-        let free = assembly.finish().unwrap().factor(1.0, 0.0).unwrap_err();
+        let free = assembly.finish().unwrap().factor(1.0, 0.0, 0.0).unwrap_err();
         assert!(matches!(free, FactorError::NotPositive { .. }));
     }
 }

@@ -209,7 +209,7 @@ fn solve(
         } else {
             u.fill(0.0);
         }
-        let factor = matrix.finish().and_then(|p| p.factor(1.0, 0.0)).map_err(|e| e.to_string())?;
+        let factor = matrix.finish().and_then(|p| p.factor(1.0, 0.0, 0.0)).map_err(|e| e.to_string())?;
         factor.solve_in_place(&mut residual, &mut vec![0.0; load.len()]);
         u.iter_mut().zip(&residual).for_each(|(u, r)| *u += r);
         if known && residual.iter().all(|r| r.abs() < 1e-13) {
