@@ -104,6 +104,14 @@ fn faults_in_elements_are_all_found() {
                 ],
             ),
             case(
+                "a beam that turns about itself",
+                &[("%/beams/0/releases", "[[\"rx\"], [\"rx\", \"rz\"]]")],
+                &[(
+                    "%.beams[0].releases",
+                    "rx must not be released at both ends, or the beam turns about its own axis",
+                )],
+            ),
+            case(
                 "trusses that cannot be",
                 &[("%/trusses/0/tensions", "[0]"), ("%/nodes/-", "[50, 6, 0, -8]"), ("%/trusses/1/elements/0/0", "50")],
                 &[

@@ -33,6 +33,10 @@ impl Checker<'_> {
     }
 
     fn releases(&mut self, list: &Beams, place: &str) {
+        if list.releases.as_ref().is_some_and(|ends| ends.iter().all(|freed| freed.contains(&Freedom::Rx))) {
+            let rule = "rx must not be released at both ends, or the beam turns about its own axis";
+            self.problem(format!("{place}.releases"), rule, "rx at both");
+        }
         for (end, released) in list.releases.iter().flatten().enumerate() {
             let place = format!("{place}.releases[{end}]");
             for (k, freedom) in released.iter().enumerate() {
