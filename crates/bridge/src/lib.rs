@@ -16,6 +16,7 @@ pub mod model;
 pub mod plane;
 pub mod reduced;
 pub mod rows;
+pub mod space;
 pub mod state;
 pub mod steps;
 pub mod structure;

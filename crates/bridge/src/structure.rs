@@ -46,6 +46,7 @@ impl Structure {
     pub fn new(spec: &BridgeSpec) -> Result<Self, ModelError> {
         let assembled = match &spec.structure {
             StructureSpec::Beams { .. } | StructureSpec::Frame(_) => plane::assemble(spec)?,
+            StructureSpec::FiniteElements(model) => space::assemble(model, &spec.supports, &spec.points)?,
         };
         Self::from_assembled(assembled, spec)
     }
