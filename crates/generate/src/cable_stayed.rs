@@ -119,6 +119,7 @@ fn build(asked: &CableStayed, girders: &[Girder; 3], mesh: Mesh) -> Model {
 /// The girder's end at `x` on the ground, held along.
 fn abutment(b: &mut Builder, x: f64, girder: &Placed) {
     let held = |nodes: Vec<u32>, fixed: Vec<Freedom>| Bearings { nodes, fixed };
-    b.model.bearings.push(held(girder.corners(x).to_vec(), vec![Freedom::X, Freedom::Z]));
+    b.model.bearings.push(held(girder.corners(x).to_vec(), vec![Freedom::Z]));
+    b.model.bearings.push(held(girder.edges(x).to_vec(), vec![Freedom::X]));
     b.model.bearings.push(held(vec![girder.middle(x).0], vec![Freedom::Y]));
 }

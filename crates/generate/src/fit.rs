@@ -41,7 +41,7 @@ pub(crate) fn fit(dofs: usize, bay: f64, width: f64, count: impl Fn(Mesh) -> usi
                 // outside the slack the error counts, inside it the shape
                 let shape = (mesh.along / across).ln().abs() + 0.5 * part.ln().abs();
                 let key = if off.abs() <= SLACK { (0, shape + 10.0 * off.abs()) } else { (1, off.abs()) };
-                if key.0 < best.0.0 || (key.0 == best.0.0 && key.1 < best.0.1) {
+                if key < best.0 {
                     best = (key, mesh);
                 }
                 over &= off > SLACK;

@@ -29,6 +29,8 @@ pub(crate) struct Placed {
     cross_beams: Vec<f64>,
     /// Top of the left and right web by x.
     tops: [Vec<u32>; 2],
+    /// Where left and right web meet the floor, by x.
+    edges: [Vec<u32>; 2],
     /// Bottom of the cross-beams by y.
     bottoms: Vec<Vec<u32>>,
 }
@@ -40,6 +42,11 @@ impl Placed {
     /// Top of a web at abscissa `x`.
     pub(crate) fn top(&self, x: f64, side: usize) -> u32 {
         self.tops[side][nearest(&self.x, x)]
+    }
+
+    /// Where both webs meet the floor at abscissa `x`.
+    pub(crate) fn edges(&self, x: f64) -> [u32; 2] {
+        SIDES.map(|side| self.edges[side][nearest(&self.x, x)])
     }
 
     /// Bottom of the cross-beam at abscissa `x` under both webs.
@@ -147,7 +154,8 @@ impl Girder {
         });
         let bottoms = bottoms.collect();
         let tops = SIDES.map(|side| columns.iter().map(|column| column.webs[side][divisions.web]).collect());
-        Placed { x, y, cross_beams: self.cross_beams.clone(), tops, bottoms }
+        let edges = SIDES.map(|side| columns.iter().map(|column| column.webs[side][0]).collect());
+        Placed { x, y, cross_beams: self.cross_beams.clone(), tops, edges, bottoms }
     }
 
     fn column(&self, builder: &mut Builder, x: f64, y: &[f64], divisions: &Divisions) -> Column {

@@ -1,10 +1,10 @@
-//! Piers: a column under each web, a beam over both, bearings for the girders that end on them or run over them.
+//! Piers: a hollow column, a cap over it, bearings under the webs for the girders that end on them or run over them.
 
 use ttb_scenario::types::{Bearings, Freedom};
 
 use crate::builder::Builder;
-use crate::girder::{Placed, SIDES};
-use crate::lines::divide;
+use crate::girder::Placed;
+use crate::lines::{divide, nearest};
 use crate::plan;
 
 /// Stiffness of a bearing, N/m: steel of 0.03 m² over 2.5 m.
@@ -19,26 +19,27 @@ pub(crate) fn add_sections(b: &mut Builder) {
 }
 
 /// A pier at `x` under `girders`. Its cap lies at the height of the bearings, whose own height is neglected: springs
-/// then join nodes at one place and no moment is lost.
+/// then join nodes at one place and no moment is lost. Over the column the cap is rigid.
 pub(crate) fn add(b: &mut Builder, x: f64, girders: &[&Placed]) {
     let Some(first) = girders.first() else { return };
-    let (half, top) = (plan::MAIN.half_width, plan::MAIN.cross_beam);
+    let (web, edge, top) = (plan::MAIN.half_width, plan::PIER, plan::MAIN.cross_beam);
     let guide = first.middle(x).1;
-    let lines = divide(&[-half, guide, half], plan::BEAM);
+    let lines = divide(&[-web, -edge, guide, edge, web], plan::BEAM);
     let cap: Vec<u32> = lines.iter().map(|y| b.node([x, *y, top])).collect();
     b.beams("pier-cap", &cap);
-    let (ends, middle) = ([cap[0], cap[cap.len() - 1]], cap[crate::lines::nearest(&lines, guide)]);
-    let mut feet = Vec::new();
-    for (side, sign) in SIDES.into_iter().zip([-1.0, 1.0]) {
-        let mut column = vec![ends[side]];
-        let levels = divide(&[top, plan::FOOT], plan::BEAM);
-        column.extend(levels.iter().skip(1).map(|z| b.node([x, sign * half, *z])));
-        b.beams("pier-column", &column);
-        feet.extend(column.last());
-        let bearings: Vec<[u32; 2]> = girders.iter().map(|girder| [ends[side], girder.corners(x)[side]]).collect();
-        b.springs(&bearings, [0.0, 0.0, BEARING, 0.0, 0.0, 0.0]);
+    let at = |y: f64| cap[nearest(&lines, y)];
+    let head = at(guide);
+    b.rigid(head, vec![at(-edge), at(edge)]);
+    let mut column = vec![head];
+    let levels = divide(&[top, plan::FOOT], plan::BEAM);
+    column.extend(levels.iter().skip(1).map(|z| b.node([x, guide, *z])));
+    b.beams("pier-column", &column);
+    b.model
+        .bearings
+        .push(Bearings { nodes: column.last().copied().into_iter().collect(), fixed: Freedom::ALL.to_vec() });
+    for girder in girders {
+        let corners = girder.corners(x);
+        b.springs(&[[at(-web), corners[0]], [at(web), corners[1]]], [0.0, 0.0, BEARING, 0.0, 0.0, 0.0]);
+        b.springs(&[[head, girder.middle(x).0]], [0.0, GUIDE, 0.0, 0.0, 0.0, 0.0]);
     }
-    let guides: Vec<[u32; 2]> = girders.iter().map(|girder| [middle, girder.middle(x).0]).collect();
-    b.springs(&guides, [0.0, GUIDE, 0.0, 0.0, 0.0, 0.0]);
-    b.model.bearings.push(Bearings { nodes: feet, fixed: Freedom::ALL.to_vec() });
 }

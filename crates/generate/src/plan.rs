@@ -57,6 +57,8 @@ pub(crate) const KINK: f64 = 22.0;
 pub(crate) const TOP: f64 = 50.0;
 /// y of the legs at the lower crossbeam and below, m; at the kink and above they stand over the webs.
 pub(crate) const LEG: f64 = 7.2;
+/// Half the width of a pier, m.
+pub(crate) const PIER: f64 = 3.0;
 /// Greatest length of beams of tower and piers, m.
 pub(crate) const BEAM: f64 = 4.0;
 
@@ -90,12 +92,12 @@ pub(crate) fn upper_crossbeam() -> Profile {
     hollow(2.4, 2.0, 0.3)
 }
 
-/// A pier's column under each web.
+/// A pier's column.
 pub(crate) fn column() -> Profile {
-    solid(2.0, 0.85)
+    hollow(2.0, 2.0 * PIER, 0.25)
 }
 
-/// The beam over a pier's columns.
+/// The cap on a pier.
 pub(crate) fn cap() -> Profile {
     solid(1.6, 1.0)
 }

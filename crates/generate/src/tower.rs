@@ -27,7 +27,7 @@ fn lean(z: f64) -> f64 {
     plan::LEG + (plan::MAIN.half_width - plan::LEG) * part
 }
 
-/// Adds the tower at `x` and lays the girder's two cross-beams there rigidly on its lower crossbeam.
+/// Adds the tower at `x` and joins the girder's webs at the two cross-beams there rigidly with its lower crossbeam.
 pub(crate) fn add(b: &mut Builder, x: f64, girder: &Placed) -> [Leg; 2] {
     b.beam_section("tower-leg-above", "C50", &plan::upper_leg());
     b.beam_section("tower-leg-below", "C50", &plan::lower_leg());
@@ -51,8 +51,9 @@ pub(crate) fn add(b: &mut Builder, x: f64, girder: &Placed) -> [Leg; 2] {
     crossbeam(b, x, plan::KINK, &[0.0], "tower-upper-crossbeam", &legs);
     crossbeam(b, x, plan::TOP, &[0.0], "tower-upper-crossbeam", &legs);
     for side in SIDES {
-        let followers = [-plan::SEAT, plan::SEAT].map(|along| girder.corners(x + along)[side]);
-        b.rigid(seats[2 * side], followers.to_vec());
+        let ends = [x - plan::SEAT, x + plan::SEAT];
+        let followers = ends.iter().flat_map(|at| [girder.corners(*at)[side], girder.edges(*at)[side]]);
+        b.rigid(seats[2 * side], followers.collect());
     }
     legs
 }

@@ -69,23 +69,25 @@ pub fn viaduct(asked: &Viaduct) -> Result<Model, Refused> {
     let mut b = Builder::new(SOURCE);
     b.material("C50", plan::MODULUS, plan::POISSON, plan::DENSITY);
     one.add_sections(&mut b, "C50", plan::TRACK_LOAD);
-    let (mut fixed, mut sliding, mut guides) = (Vec::new(), Vec::new(), Vec::new());
+    let (mut along, mut bearings, mut guides) = (Vec::new(), Vec::new(), Vec::new());
     for (i, girder) in girders.iter().enumerate() {
         let placed = girder.add(&mut b, mesh);
         let [from, to] = [i as f64, (i + 1) as f64].map(|n| n * asked.span);
-        fixed.extend(placed.corners(from));
-        sliding.extend(placed.corners(to));
-        guides.extend([placed.middle(from).0, placed.middle(to).0]);
+        along.extend(placed.edges(from));
+        for end in [from, to] {
+            bearings.extend(placed.corners(end));
+            guides.push(placed.middle(end).0);
+        }
     }
-    let held = [(fixed, vec![Freedom::X, Freedom::Z]), (sliding, vec![Freedom::Z]), (guides, vec![Freedom::Y])];
-    b.model.bearings = held.into_iter().map(|(nodes, fixed)| Bearings { nodes, fixed }).collect();
+    let held = [(along, Freedom::X), (guides, Freedom::Y), (bearings, Freedom::Z)];
+    b.model.bearings = held.into_iter().map(|(nodes, fixed)| Bearings { nodes, fixed: vec![fixed] }).collect();
     let on = DeckCarrier::Shells(one.floor().to_vec());
     b.model.deck = DeckLine { length: asked.spans as f64 * asked.span, y: asked.track_y, on };
     Ok(b.model)
 }
 
 /// Degrees of freedom that the bearings of a girder hold.
-const HELD: usize = 2 * 2 + 2 + 2;
+const HELD: usize = 2 + 2 + 4;
 
 impl Viaduct {
     /// The girders' cross-section: thicknesses and widths in proportion to the girder before the cable-stayed bridge.
