@@ -14,6 +14,7 @@ pub mod mesh;
 pub mod model;
 pub mod reduced;
 pub mod rows;
+pub mod space;
 pub mod state;
 pub mod steps;
 pub mod structure;

@@ -60,6 +60,9 @@ impl Structure {
                 crate::beams::mesh(spans, *continuous)?
             }
             StructureSpec::Frame(frame) => crate::frame::mesh(frame)?,
+            StructureSpec::FiniteElements(_) => {
+                return Err(ModelError("bridge: finite elements cannot be solved yet".into()));
+            }
         };
         let pencil = mesh.assemble()?;
         let statics = pencil.factor(1.0, 0.0).map_err(|e| explain(&mesh, e))?;
@@ -208,6 +211,7 @@ fn monitor_rows(mesh: &Mesh, deck: &Deck, points: &[Point]) -> Result<(Rows, Vec
 fn on_deck(mesh: &Mesh, deck: &Deck, point: &Point, x: f64) -> Result<(Row, Option<Row>), ModelError> {
     let along = match point.direction {
         Direction::X => [1.0, 0.0],
+        Direction::Y => [0.0, 0.0],
         Direction::Z => [0.0, 1.0],
     };
     let motion = deck.displacement(mesh, x, along);
@@ -218,10 +222,11 @@ fn on_deck(mesh: &Mesh, deck: &Deck, point: &Point, x: f64) -> Result<(Row, Opti
 fn at_node(mesh: &Mesh, point: &str, node: &str, direction: Direction) -> Result<Row, ModelError> {
     let found = mesh.nodes.iter().position(|n| n.name == node);
     let found = found.ok_or_else(|| ModelError(format!("bridge: point {point}: there is no node named {node}")))?;
-    let dof = mesh.dofs[found][match direction {
-        Direction::X => 0,
-        Direction::Z => 1,
-    }];
+    let dof = match direction {
+        Direction::X => mesh.dofs[found][0],
+        Direction::Y => None,
+        Direction::Z => mesh.dofs[found][1],
+    };
     Ok(dof.map(|dof| (dof, 1.0)).into_iter().collect())
 }
 

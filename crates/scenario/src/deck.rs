@@ -28,6 +28,9 @@ impl Deck {
                 Some(Self { length, inner_bearings: bearings })
             }
             StructureSpec::Frame(frame) => Self::of_frame(frame),
+            StructureSpec::FiniteElements(model) => {
+                Some(Self { length: model.deck.length, inner_bearings: Vec::new() })
+            }
         }
     }
 

@@ -20,7 +20,7 @@ use crate::{check, json, resolve, schema, walk};
 pub const GRAVITY: f64 = 9.81;
 
 /// The rule against which nothing is ever found, as a test tries to show.
-const MUST_FIT: &str = "must fit the schema";
+pub(crate) const MUST_FIT: &str = "must fit the schema";
 
 /// A scenario without problems.
 #[derive(Clone, Debug, PartialEq)]
@@ -49,7 +49,7 @@ pub fn load(path: &Path) -> Result<Checked, Problems> {
     let text = std::fs::read_to_string(path).map_err(|error| {
         let mut report = Report::new(&name);
         report.problem("", "the scenario file cannot be read", error);
-        Problems(report.problems)
+        report.into_problems()
     })?;
     from_str(&text, path.parent().unwrap_or(Path::new("")), &name)
 }
@@ -63,26 +63,26 @@ pub fn load(path: &Path) -> Result<Checked, Problems> {
 pub fn from_str(text: &str, base_dir: &Path, file_name: &str) -> Result<Checked, Problems> {
     let mut report = Report::new(file_name);
     let Some(document) = json::read(text, &mut report) else {
-        return Err(Problems(report.problems));
+        return Err(report.into_problems());
     };
-    walk::walk(&schema::schema(), &document.value, &document.reported, &mut report);
+    walk::walk(&schema::SCENARIO, &document.value, &document.reported, &mut report);
     let pieces = Pieces::read(&document.value);
     let resolved = resolve::resolve(&pieces, base_dir, &mut report);
     check::check(&pieces, &resolved, &mut report);
     if !report.problems.is_empty() {
-        return Err(Problems(report.problems));
+        return Err(report.into_problems());
     }
     // What fits the schema fits the types and resolves; should that ever fail, it is a problem like any other.
     let scenario: Scenario = match serde_json::from_value(document.value) {
         Ok(scenario) => scenario,
         Err(error) => {
             report.problem("$", MUST_FIT, error);
-            return Err(Problems(report.problems));
+            return Err(report.into_problems());
         }
     };
     let Some((train_track, bridge)) = resolve::specs(&scenario, resolved) else {
         report.problem("$", MUST_FIT, "a name stands for nothing");
-        return Err(Problems(report.problems));
+        return Err(report.into_problems());
     };
     Ok(Checked {
         hash: hash(&train_track, &bridge, &scenario.coupling),
@@ -100,6 +100,23 @@ fn axle_load(car: &Car) -> f64 {
 }
 
 fn hash(train_track: &TrainTrackSpec, bridge: &BridgeSpec, coupling: &CouplingSettings) -> String {
-    let content = serde_json::json!([train_track, bridge, coupling]).to_string();
-    Sha256::digest(content.as_bytes()).iter().map(|byte| format!("{byte:02x}")).collect()
+    let mut digest = Digesting(Sha256::new());
+    // neither the specs nor this writer can fail to be written
+    let written = serde_json::to_writer(&mut digest, &(train_track, bridge, coupling));
+    debug_assert!(written.is_ok());
+    digest.0.finalize().iter().map(|byte| format!("{byte:02x}")).collect()
+}
+
+/// Digests what is written, so that the JSON of a large model is never held as a whole.
+struct Digesting(Sha256);
+
+impl std::io::Write for Digesting {
+    fn write(&mut self, bytes: &[u8]) -> std::io::Result<usize> {
+        self.0.update(bytes);
+        Ok(bytes.len())
+    }
+
+    fn flush(&mut self) -> std::io::Result<()> {
+        Ok(())
+    }
 }

@@ -1,6 +1,10 @@
 //! What can be wrong with a scenario, said in one line each: where, which rule, what was found.
 
+use std::collections::BTreeMap;
 use std::fmt;
+
+/// So many problems of one kind are listed; of the others only the number is told.
+const LISTED: usize = 20;
 
 /// One broken rule.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -59,11 +63,41 @@ pub(crate) struct Report {
     pub problems: Vec<Problem>,
     /// What is allowed, but rarely meant.
     pub warnings: Vec<String>,
+    /// How often each rule was broken.
+    broken: BTreeMap<String, usize>,
 }
 
 impl Report {
     pub fn new(file: &str) -> Self {
-        Self { file: file.to_owned(), problems: Vec::new(), warnings: Vec::new() }
+        Self { file: file.to_owned(), problems: Vec::new(), warnings: Vec::new(), broken: BTreeMap::new() }
+    }
+
+    /// Another problem of this kind would only be counted: spare the search for a suggestion.
+    pub fn is_full(&self, rule: &str) -> bool {
+        self.broken.get(rule).is_some_and(|times| *times >= LISTED)
+    }
+
+    /// All that was noted, with the number of those that were not listed.
+    pub fn into_problems(mut self) -> Problems {
+        for (rule, times) in std::mem::take(&mut self.broken) {
+            if let more @ 1.. = times.saturating_sub(LISTED) {
+                let value = format!("and {} more", grouped(more));
+                self.problems.push(Problem {
+                    file: self.file.clone(),
+                    path: String::new(),
+                    rule,
+                    value,
+                    suggestion: None,
+                });
+            }
+        }
+        Problems(self.problems)
+    }
+
+    /// Takes over what was found in another file.
+    pub fn absorb(&mut self, other: Self) {
+        self.warnings.extend_from_slice(&other.warnings);
+        self.problems.extend(other.into_problems().0);
     }
 
     /// Notes that `value` was found at `path` against `rule`.
@@ -79,10 +113,16 @@ impl Report {
         value: impl fmt::Display,
         suggestion: Option<String>,
     ) {
+        let rule = rule.into();
+        let times = self.broken.entry(rule.clone()).or_default();
+        *times += 1;
+        if *times > LISTED {
+            return;
+        }
         self.problems.push(Problem {
             file: self.file.clone(),
             path: path.into(),
-            rule: rule.into(),
+            rule,
             value: value.to_string(),
             suggestion,
         });
@@ -91,6 +131,19 @@ impl Report {
     pub fn warn(&mut self, text: impl Into<String>) {
         self.warnings.push(text.into());
     }
+}
+
+/// 1234567 as 1,234,567.
+fn grouped(number: usize) -> String {
+    let digits = number.to_string();
+    let mut text = String::new();
+    for (i, digit) in digits.chars().enumerate() {
+        if i > 0 && (digits.len() - i).is_multiple_of(3) {
+            text.push(',');
+        }
+        text.push(digit);
+    }
+    text
 }
 
 /// The name most like `name`, if one is like it at all.

@@ -5,10 +5,13 @@ use std::path::Path;
 use crate::bundled;
 use crate::deck::Deck;
 use crate::measured;
+use crate::model;
 use crate::pieces::Pieces;
 use crate::problem::Report;
 use crate::spec::{BridgeSpec, Profile, StructureSpec, TrainTrackSpec};
-use crate::types::{Car, CarChoice, FrameChoice, Irregularity, Scenario, Speed, Structure, TrackChoice, TrackType};
+use crate::types::{
+    Car, CarChoice, FrameChoice, Irregularity, Model, ModelChoice, Scenario, Speed, Structure, TrackChoice, TrackType,
+};
 
 /// What the names in a scenario stand for; `None` where that cannot be told, which has been reported.
 pub(crate) struct Resolved {
@@ -28,7 +31,7 @@ pub(crate) fn resolve(pieces: &Pieces, base_dir: &Path, report: &mut Report) -> 
         speed: pieces.speed.as_ref().map(speed),
         track: pieces.track_type.as_ref().and_then(track),
         profile: pieces.irregularity.as_ref().and_then(|chosen| profile(chosen, base_dir, report)),
-        structure: pieces.structure.as_ref().and_then(structure),
+        structure: pieces.structure.as_ref().and_then(|chosen| structure(chosen, base_dir, report)),
     }
 }
 
@@ -54,13 +57,20 @@ fn track(choice: &TrackChoice) -> Option<TrackType> {
     }
 }
 
-fn structure(structure: &Structure) -> Option<StructureSpec> {
+fn structure(structure: &Structure, base_dir: &Path, report: &mut Report) -> Option<StructureSpec> {
     match structure {
         Structure::Beams { spans, continuous } => {
             Some(StructureSpec::Beams { spans: spans.clone(), continuous: *continuous })
         }
         Structure::Frame { frame: FrameChoice::Bundled(name) } => bundled::frame(name).map(StructureSpec::Frame),
         Structure::Frame { frame: FrameChoice::Data(frame) } => Some(StructureSpec::Frame((**frame).clone())),
+        Structure::FiniteElements { model: ModelChoice::File(file) } => {
+            let model = model::read(&base_dir.join(file), report)?;
+            Some(StructureSpec::FiniteElements(Box::new(model)))
+        }
+        Structure::FiniteElements { model: ModelChoice::Data(model) } => {
+            Some(StructureSpec::FiniteElements(Box::new(Model { schema: None, ..(**model).clone() })))
+        }
     }
 }
 

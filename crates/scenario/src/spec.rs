@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::types::{Car, Contact, Damping, Frame, Newmark, Point, Ramp, Span, TrackType, Wave};
+use crate::types::{Car, Contact, Damping, Frame, Model, Newmark, Point, Ramp, Span, TrackType, Wave};
 
 /// All the train–track subsystem is built from (`resources/train-track.json`).
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -139,4 +139,6 @@ pub enum StructureSpec {
     },
     /// A plane frame.
     Frame(Frame),
+    /// Elements in space.
+    FiniteElements(Box<Model>),
 }

@@ -2,18 +2,22 @@
 
 use std::collections::HashSet;
 
-use super::frame;
+use super::{frame, model};
 use crate::deck::Deck;
 use crate::pieces::Pieces;
 use crate::problem::Report;
 use crate::resolve::Resolved;
 use crate::spec::StructureSpec;
-use crate::types::{Damping, Direction, FrameChoice, Point, RayleighAt, Structure};
+use crate::types::{Damping, Direction, FrameChoice, ModelChoice, Point, RayleighAt, Structure};
 
 pub(super) fn check(pieces: &Pieces, resolved: &Resolved, report: &mut Report) {
     // a bundled frame is right: a test checks it
     if let Some(Structure::Frame { frame: FrameChoice::Data(frame) }) = &pieces.structure {
         frame::check(frame, report);
+    }
+    // one in a file of its own has been checked when it was read
+    if let Some(Structure::FiniteElements { model: ModelChoice::Data(model) }) = &pieces.structure {
+        model::check(model, "$.bridge.structure.model", report);
     }
     if let Some(damping) = &pieces.damping {
         rayleigh(damping, report);
@@ -32,7 +36,7 @@ pub(super) fn check(pieces: &Pieces, resolved: &Resolved, report: &mut Report) {
     }
 }
 
-/// A point lies on the deck or at a node of a frame.
+/// A point lies on the deck or at a node.
 fn place(point: &Point, path: &str, structure: Option<&StructureSpec>, report: &mut Report) {
     match (&point.x, &point.node) {
         (Some(_), Some(_)) => report.problem(path, "a point has either x or node", "both"),
@@ -43,12 +47,26 @@ fn place(point: &Point, path: &str, structure: Option<&StructureSpec>, report: &
                 let found = format!("{x} m, the deck is {length} m long");
                 report.problem(format!("{path}.x"), "a point must lie on the bridge", found);
             }
-            if point.direction == Direction::X {
-                report.problem(format!("{path}.direction"), "motion along the track is known at nodes only", "x");
+            match point.direction {
+                Direction::Z => {}
+                Direction::X => {
+                    report.problem(format!("{path}.direction"), "motion along the track is known at nodes only", "x");
+                }
+                Direction::Y => {
+                    report.problem(format!("{path}.direction"), "motion across the track is known at nodes only", "y");
+                }
             }
         }
         (None, Some(name)) => match structure {
-            Some(StructureSpec::Frame(frame)) => frame::known_node(frame, name, &format!("{path}.node"), report),
+            Some(StructureSpec::Frame(frame)) => {
+                frame::known_node(frame, name, &format!("{path}.node"), report);
+                if point.direction == Direction::Y {
+                    report.problem(format!("{path}.direction"), "a plane frame does not move across the track", "y");
+                }
+            }
+            Some(StructureSpec::FiniteElements(model)) => {
+                model::known_name(model, name, &format!("{path}.node"), report);
+            }
             Some(StructureSpec::Beams { .. }) => {
                 report.problem(format!("{path}.node"), "only frames have named nodes: give x", format!("`{name}`"));
             }
@@ -90,7 +108,7 @@ fn modes(pieces: &Pieces, freedoms: usize, report: &mut Report) {
     }
 }
 
-/// Degrees of freedom of a structure's model; of a frame an upper bound. Numbers of elements may be anything.
+/// Degrees of freedom of a structure's model; but for beams an upper bound. Numbers of elements may be anything.
 fn degrees_of_freedom(structure: &StructureSpec) -> usize {
     let sum = |counts: &mut dyn Iterator<Item = usize>| counts.fold(0, usize::saturating_add);
     match structure {
@@ -104,5 +122,6 @@ fn degrees_of_freedom(structure: &StructureSpec) -> usize {
             let fixed = sum(&mut frame.nodes.iter().map(|node| node.fixed.len()));
             inner.saturating_add(frame.nodes.len()).saturating_mul(3).saturating_sub(fixed)
         }
+        StructureSpec::FiniteElements(model) => model.nodes.len().saturating_mul(6),
     }
 }

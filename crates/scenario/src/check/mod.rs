@@ -5,7 +5,10 @@ mod bridge;
 mod frame;
 mod graph;
 mod layout;
+mod model;
 mod run;
+
+pub(crate) use model::check as model;
 
 use crate::pieces::Pieces;
 use crate::problem::Report;

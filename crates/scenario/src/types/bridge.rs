@@ -4,6 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::frame::FrameChoice;
+use super::model::Model;
 
 /// Damping of the bridge.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -56,10 +57,10 @@ pub struct Point {
     /// Distance from the bridge's begin along the deck, m.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub x: Option<f64>,
-    /// Or a named node of a frame.
+    /// Or a node: its name in a frame, its number as text (`"4711"`) in a finite-element model.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub node: Option<String>,
-    /// Direction of the motion at a node: `z` (down, default) or `x`.
+    /// Direction of the motion at a node: `z` (down, default), `x`, or in space `y`.
     #[serde(default)]
     pub direction: Direction,
 }
@@ -73,6 +74,8 @@ pub enum Direction {
     Z,
     /// Along the track.
     X,
+    /// To the right; in finite-element models only.
+    Y,
 }
 
 /// Where the track's supports over a bearing line go.
@@ -127,6 +130,21 @@ pub enum Structure {
         /// The frame.
         frame: FrameChoice,
     },
+    /// Beams, trusses, cables and shells in space.
+    FiniteElements {
+        /// The model.
+        model: ModelChoice,
+    },
+}
+
+/// A finite-element model: its own file, or its data.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(untagged)]
+pub enum ModelChoice {
+    /// Path of its file, relative to the scenario.
+    File(String),
+    /// The model.
+    Data(Box<Model>),
 }
 
 /// The bridge.

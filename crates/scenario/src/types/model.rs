@@ -27,11 +27,36 @@ pub enum Freedom {
 impl Freedom {
     /// All six, in order.
     pub const ALL: [Self; 6] = [Self::X, Self::Y, Self::Z, Self::Rx, Self::Ry, Self::Rz];
+
+    /// Its position among the six.
+    #[must_use]
+    pub fn index(self) -> usize {
+        self as usize
+    }
+
+    /// As the file writes it.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        ["x", "y", "z", "rx", "ry", "rz"][self.index()]
+    }
+
+    /// In words, for messages.
+    #[must_use]
+    pub fn describe(self) -> &'static str {
+        [
+            "displacement along x",
+            "displacement along y",
+            "displacement along z",
+            "rotation about x",
+            "rotation about y",
+            "rotation about z",
+        ][self.index()]
+    }
 }
 
 /// A linear elastic material.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[schemars(deny_unknown_fields)]
+#[serde(deny_unknown_fields)]
 pub struct Material {
     /// Name.
     pub name: String,
@@ -49,7 +74,7 @@ pub struct Material {
 
 /// Cross-section of beams, trusses and cables. The local axis 1 runs along the element, 2 and 3 across it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[schemars(deny_unknown_fields)]
+#[serde(deny_unknown_fields)]
 pub struct LineSection {
     /// Name.
     pub name: String,
@@ -86,7 +111,7 @@ pub struct LineSection {
 
 /// Thickness and material of shells.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[schemars(deny_unknown_fields)]
+#[serde(deny_unknown_fields)]
 pub struct ShellSection {
     /// Name.
     pub name: String,
@@ -103,7 +128,7 @@ pub struct ShellSection {
 
 /// Beams of one section.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[schemars(deny_unknown_fields)]
+#[serde(deny_unknown_fields)]
 pub struct Beams {
     /// Name of their line section.
     pub section: String,
@@ -121,7 +146,7 @@ pub struct Beams {
 
 /// Trusses or cables of one section.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[schemars(deny_unknown_fields)]
+#[serde(deny_unknown_fields)]
 pub struct Trusses {
     /// Name of their line section.
     pub section: String,
@@ -134,7 +159,7 @@ pub struct Trusses {
 
 /// Flat shells of one section: quadrilaterals and triangles.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[schemars(deny_unknown_fields)]
+#[serde(deny_unknown_fields)]
 pub struct Shells {
     /// Name of their shell section.
     pub section: String,
@@ -144,7 +169,7 @@ pub struct Shells {
 
 /// Springs and dashpots between two nodes, or from a node to the ground.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[schemars(deny_unknown_fields)]
+#[serde(deny_unknown_fields)]
 pub struct Springs {
     /// One or two node numbers each.
     pub elements: Vec<Vec<u32>>,
@@ -158,7 +183,7 @@ pub struct Springs {
 
 /// Masses at nodes.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[schemars(deny_unknown_fields)]
+#[serde(deny_unknown_fields)]
 pub struct Masses {
     /// Node numbers.
     pub nodes: Vec<u32>,
@@ -172,7 +197,7 @@ pub struct Masses {
 
 /// Nodes that follow another as parts of one rigid body.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[schemars(deny_unknown_fields)]
+#[serde(deny_unknown_fields)]
 pub struct RigidLink {
     /// Number of the node that leads.
     pub leader: u32,
@@ -185,7 +210,7 @@ pub struct RigidLink {
 
 /// Σ factor · motion = 0; the first term's motion is eliminated.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[schemars(deny_unknown_fields)]
+#[serde(deny_unknown_fields)]
 pub struct Constraint {
     /// (node number, freedom, factor).
     #[schemars(length(min = 1))]
@@ -194,7 +219,7 @@ pub struct Constraint {
 
 /// Nodes held.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[schemars(deny_unknown_fields)]
+#[serde(deny_unknown_fields)]
 pub struct Bearings {
     /// Node numbers.
     pub nodes: Vec<u32>,
@@ -205,7 +230,7 @@ pub struct Bearings {
 
 /// How the track's supports rest on the model.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[schemars(deny_unknown_fields)]
+#[serde(deny_unknown_fields)]
 pub struct DeckLine {
     /// Length of the bridge along the track, m: supports with 0 < x < length rest on it.
     #[schemars(extend("exclusiveMinimum" = 0))]
@@ -225,13 +250,13 @@ pub enum DeckCarrier {
     Shells(Vec<String>),
     /// The beams of these sections: interpolated along the element, rigidly offset across it.
     Beams(Vec<String>),
-    /// These nodes: the nearest along x, rigidly offset; `[]` stands for all nodes.
+    /// These nodes: the nearest along x, of those the nearest along y, rigidly offset; `[]` stands for all nodes.
     Nodes(Vec<u32>),
 }
 
 /// A finite-element model in space.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[schemars(deny_unknown_fields)]
+#[serde(deny_unknown_fields)]
 pub struct Model {
     /// JSON Schema of this file, for editors; ignored.
     #[serde(rename = "$schema", default, skip_serializing_if = "Option::is_none")]

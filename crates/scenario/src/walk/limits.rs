@@ -16,7 +16,8 @@ impl<'a> Walker<'a> {
         if let Some(low) = limit("exclusiveMinimum").filter(|low| x <= *low) {
             broken(format!("must be greater than {low}"));
         }
-        if let Some(high) = limit("maximum").filter(|high| x > *high) {
+        let width = (schema["format"] == "uint32").then_some(f64::from(u32::MAX));
+        if let Some(high) = limit("maximum").or(width).filter(|high| x > *high) {
             broken(format!("must be at most {high}"));
         }
     }
@@ -36,8 +37,10 @@ impl<'a> Walker<'a> {
             }
             _ => {}
         }
+        // a tuple has a schema for each of its entries
+        let each = schema["prefixItems"].as_array().map_or(&[][..], Vec::as_slice);
         for (i, item) in list.iter().enumerate() {
-            self.check(&schema["items"], item, &format!("{path}[{i}]"));
+            self.check(each.get(i).unwrap_or(&schema["items"]), item, &format!("{path}[{i}]"));
         }
     }
 

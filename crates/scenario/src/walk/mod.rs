@@ -108,11 +108,11 @@ mod tests {
 
     use serde_json::Value;
 
-    use crate::schema::schema;
+    use crate::schema::{model_schema, schema};
     use crate::types::NAME_PATTERN;
 
-    const UNDERSTOOD: &str = "$ref oneOf anyOf const enum type properties required additionalProperties items minItems \
-        maxItems minimum maximum exclusiveMinimum pattern";
+    const UNDERSTOOD: &str = "$ref oneOf anyOf const enum type properties required additionalProperties items \
+        prefixItems minItems maxItems minimum maximum exclusiveMinimum pattern";
     const ANNOTATIONS: &str = "$schema $id $defs title description default format";
 
     /// Keywords of a schema and of all schemas in it.
@@ -121,7 +121,7 @@ mod tests {
             found.insert(keyword.clone());
             match (keyword.as_str(), value) {
                 ("properties" | "$defs", Value::Object(named)) => named.values().for_each(|s| keywords(s, found)),
-                ("oneOf" | "anyOf", Value::Array(list)) => list.iter().for_each(|s| keywords(s, found)),
+                ("oneOf" | "anyOf" | "prefixItems", Value::Array(list)) => list.iter().for_each(|s| keywords(s, found)),
                 ("items", schema) => keywords(schema, found),
                 _ => {}
             }
@@ -130,13 +130,13 @@ mod tests {
 
     #[test]
     fn the_schema_has_no_keyword_that_the_walker_does_not_know() {
-        let schema = schema();
+        let schemas = serde_json::json!({ "anyOf": [schema(), model_schema()] });
         let mut found = BTreeSet::new();
-        keywords(&schema, &mut found);
+        keywords(&schemas, &mut found);
         let known: BTreeSet<String> =
             UNDERSTOOD.split_whitespace().chain(ANNOTATIONS.split_whitespace()).map(str::to_owned).collect();
         assert_eq!(found.difference(&known).collect::<Vec<_>>(), Vec::<&String>::new());
-        let text = schema.to_string();
+        let text = schemas.to_string();
         assert_eq!(
             text.matches("\"pattern\":").count(),
             text.matches(&format!("\"pattern\":\"{NAME_PATTERN}\"")).count()

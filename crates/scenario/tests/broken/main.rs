@@ -4,6 +4,7 @@
 mod frame;
 mod rules;
 mod schema;
+mod space;
 mod text;
 
 use std::collections::BTreeSet;
@@ -14,13 +15,15 @@ use ttb_scenario::{Problems, from_str};
 
 const BEAMS: &str = include_str!("beams.json");
 const FRAME: &str = include_str!("frame.json");
+const SPACE: &str = include_str!("space.json");
 
 /// What is done to the scenario, and what must be found.
 struct Case {
     name: &'static str,
-    /// (JSON pointer, JSON to put there); no JSON: take away what is there. `%` stands for the pointer to the frame.
+    /// (JSON pointer, JSON to put there); no JSON: take away what is there. `%` stands for the pointer to the frame
+    /// or model.
     changes: &'static [(&'static str, &'static str)],
-    /// (path, rule). `%` stands for the path of the frame.
+    /// (path, rule). `%` stands for the path of the frame or model.
     expected: &'static [(&'static str, &'static str)],
 }
 
@@ -40,13 +43,15 @@ fn folder() -> PathBuf {
 /// Runs every case of a table; reports all that fail.
 fn try_all(base: &str, cases: &[Case]) {
     let mut failures = Vec::new();
+    let inner = if base == SPACE { "model" } else { "frame" };
     for case in cases {
         let mut scenario: Value = serde_json::from_str(base).unwrap();
         for (pointer, json) in case.changes {
-            change(&mut scenario, &pointer.replace('%', "/bridge/structure/frame"), json);
+            change(&mut scenario, &pointer.replace('%', &format!("/bridge/structure/{inner}")), json);
         }
+        let place = format!("$.bridge.structure.{inner}");
         let expected: BTreeSet<_> =
-            case.expected.iter().map(|(path, rule)| (path.replace('%', "$.bridge.structure.frame"), *rule)).collect();
+            case.expected.iter().map(|(path, rule)| (path.replace('%', &place), *rule)).collect();
         let result = from_str(&scenario.to_string(), &folder(), "broken.json");
         let found = result.err().unwrap_or(Problems(Vec::new()));
         let pairs: BTreeSet<_> = found.0.iter().map(|p| (p.path.clone(), p.rule.as_str())).collect();
@@ -76,7 +81,7 @@ fn change(scenario: &mut Value, pointer: &str, json: &str) {
 
 #[test]
 fn the_scenarios_that_are_broken_here_are_whole() {
-    for base in [BEAMS, FRAME] {
+    for base in [BEAMS, FRAME, SPACE] {
         let checked = from_str(base, &folder(), "base").unwrap_or_else(|problems| panic!("{problems}"));
         assert_eq!(checked.warnings, Vec::<String>::new());
     }
@@ -99,7 +104,7 @@ fn places(value: &Value, at: &str, found: &mut Vec<String>) {
 #[test]
 fn whatever_stands_wherever_the_answer_is_a_scenario_or_problems() {
     let odd = ["null", "true", "-1", "0", "1", "1e300", "-1e300", "1e-300", "18446744073709551615", "\"\"", "[]", "{}"];
-    for base in [BEAMS, FRAME] {
+    for base in [BEAMS, FRAME, SPACE] {
         let whole: Value = serde_json::from_str(base).unwrap();
         let mut found = Vec::new();
         places(&whole, "", &mut found);
