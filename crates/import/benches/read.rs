@@ -4,6 +4,7 @@
 use std::fs;
 use std::io::{BufWriter, Write};
 use std::path::{Path, PathBuf};
+use std::process::Command;
 use std::time::Instant;
 
 use ttb_import::{Input, read_matrix};
@@ -11,31 +12,37 @@ use ttb_import::{Input, read_matrix};
 /// Entries in a column of the lower triangle.
 const COLUMN: usize = 30;
 
+type Writer = fn(&mut BufWriter<fs::File>, usize) -> std::io::Result<()>;
+const FORMATS: [(&str, Writer); 5] = [
+    ("market-lower.mtx", |f, n| market(f, n, false)),
+    ("market-full.mtx", |f, n| market(f, n, true)),
+    ("triplets.sti", triplets),
+    ("labels.txt", labels),
+    ("harwell.matrix", harwell),
+];
+
 fn main() {
+    // Each file is read in a process of its own, so that no memory is there to be used again.
+    if let Some(path) = std::env::var_os("TTB_READ") {
+        return measure(Path::new(&path));
+    }
     let n = std::env::args().find_map(|argument| argument.parse().ok()).unwrap_or(120_000);
     let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR"));
     println!("{n} degrees of freedom, {COLUMN} entries a column");
-    type Writer = fn(&mut BufWriter<fs::File>, usize) -> std::io::Result<()>;
-    let formats: [(&str, Writer); 5] = [
-        ("market-lower.mtx", |f, n| market(f, n, false)),
-        ("market-full.mtx", |f, n| market(f, n, true)),
-        ("triplets.sti", triplets),
-        ("labels.txt", labels),
-        ("harwell.matrix", harwell),
-    ];
-    for (name, write) in formats {
+    for (name, write) in FORMATS {
         let path = folder.join(name);
         let mut file = BufWriter::new(fs::File::create(&path).expect("a file in the target folder"));
         write(&mut file, n).and_then(|()| file.flush()).expect("room in the target folder");
         drop(file);
-        measure(name, &path);
+        let this = std::env::current_exe().expect("this program");
+        Command::new(this).env("TTB_READ", &path).status().expect("this program once more");
         fs::remove_file(&path).ok();
     }
 }
 
-fn measure(name: &str, path: &Path) {
+fn measure(path: &Path) {
+    let name = path.file_name().unwrap_or_default().to_string_lossy();
     let megabytes = fs::metadata(path).map_or(0, |facts| facts.len()) as f64 / 1e6;
-    fs::write("/proc/self/clear_refs", "5").ok(); // resets the peak
     let before = status("VmRSS");
     let (wall, cpu) = (Instant::now(), cpu_seconds());
     let read = read_matrix(&Input::path(path), None, None, None).expect("a good file");

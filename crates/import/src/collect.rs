@@ -152,7 +152,7 @@ impl Judge {
     /// The value at a place from all that was given for it.
     fn join(&mut self, given: &[(u32, f64)], i: u32, j: u32) -> f64 {
         let below = given.partition_point(|(row, _)| row & ABOVE == 0);
-        let sum = |part: &[(u32, f64)]| part.iter().map(|(_, value)| value).sum::<f64>();
+        let sum = |part: &[(u32, f64)]| part.iter().fold(0.0, |sum, (_, value)| sum + value);
         let (lower, upper) = (sum(&given[..below]), sum(&given[below..]));
         if i == j {
             return lower;

@@ -3,10 +3,10 @@
 use std::collections::HashMap;
 use std::fmt;
 
-use crate::formats::Numbering;
 use crate::input::Input;
 use crate::lines::Lines;
 use crate::number::{Fields, whole};
+use crate::numbering::Numbering;
 use crate::problem::{Report, Stop, excerpt};
 use crate::table::{Column, Table};
 
@@ -68,7 +68,7 @@ impl Dofs {
 
     /// Rows by node and direction.
     pub(crate) fn numbering(&self) -> Numbering {
-        self.dofs.iter().zip(0..).map(|(dof, row)| (*dof, row)).collect()
+        Numbering::new(&self.dofs)
     }
 }
 

@@ -17,6 +17,7 @@ mod inspect;
 mod lines;
 mod matrix;
 mod number;
+mod numbering;
 mod problem;
 mod read;
 mod rows;

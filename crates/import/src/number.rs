@@ -4,52 +4,70 @@ use std::borrow::Cow;
 
 /// Fields of a line, apart by blanks, tabs or commas.
 pub(crate) struct Fields<'a> {
-    text: &'a [u8],
-    at: usize,
+    rest: &'a [u8],
 }
 
+#[inline]
 fn separates(byte: u8) -> bool {
     matches!(byte, b' ' | b'\t' | b',')
 }
 
 impl<'a> Fields<'a> {
+    #[inline]
     pub fn new(text: &'a [u8]) -> Self {
-        Self { text, at: 0 }
+        Self { rest: text }
     }
 
+    #[inline]
     fn skip(&mut self) {
-        while self.at < self.text.len() && separates(self.text[self.at]) {
-            self.at += 1;
+        while let [byte, rest @ ..] = self.rest
+            && separates(*byte)
+        {
+            self.rest = rest;
         }
     }
 
     /// The next field; empty at the end.
+    #[inline]
     pub fn next(&mut self) -> &'a [u8] {
         self.skip();
-        let from = self.at;
-        while self.at < self.text.len() && !separates(self.text[self.at]) {
-            self.at += 1;
-        }
-        &self.text[from..self.at]
+        let length = self.rest.iter().position(|byte| separates(*byte)).unwrap_or(self.rest.len());
+        let (field, rest) = self.rest.split_at(length);
+        self.rest = rest;
+        field
     }
 
     /// The next field as a whole number ≥ 0; too large a number saturates.
+    #[inline]
     pub fn whole(&mut self) -> Option<u64> {
+        /// So many digits fit surely.
+        const FIT: usize = 19;
         self.skip();
-        let from = self.at;
+        let before = self.rest.len();
         let mut number = 0_u64;
-        while let Some(digit) = self.text.get(self.at).map(|byte| byte.wrapping_sub(b'0')).filter(|d| *d < 10) {
-            number = number.saturating_mul(10).saturating_add(u64::from(digit));
-            self.at += 1;
+        while let [byte, rest @ ..] = self.rest
+            && byte.is_ascii_digit()
+        {
+            number = number.wrapping_mul(10).wrapping_add(u64::from(byte - b'0'));
+            self.rest = rest;
         }
-        let ends = self.text.get(self.at).is_none_or(|byte| separates(*byte));
-        (self.at > from && ends).then_some(number)
+        let digits = before - self.rest.len();
+        let ends = self.rest.first().is_none_or(|byte| separates(*byte));
+        (digits > 0 && ends).then_some(if digits > FIT { u64::MAX } else { number })
+    }
+
+    /// All that is left, without blanks around it.
+    #[inline]
+    pub fn remainder(mut self) -> &'a [u8] {
+        self.skip();
+        self.rest.trim_ascii_end()
     }
 
     /// Nothing but separators is left.
+    #[inline]
     pub fn end(&mut self) -> bool {
         self.skip();
-        self.at == self.text.len()
+        self.rest.is_empty()
     }
 }
 

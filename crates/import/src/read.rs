@@ -2,9 +2,10 @@
 
 use crate::collect::{Counts, Filler, MOST_ROWS};
 use crate::dofs::Dof;
-use crate::formats::{Format, Known, Numbering};
+use crate::formats::{Format, Known};
 use crate::input::Input;
 use crate::matrix::SymmetricMatrix;
+use crate::numbering::Numbering;
 use crate::problem::{Problems, Report, Stop};
 
 /// Least bytes for a row: every row has at least its diagonal entry, `1 1 1` or more.
@@ -64,8 +65,8 @@ fn read(
     let bytes = input.length().map_err(|e| report.fatal(None, "the file cannot be read", e))?;
     let format = format.map_or_else(|| Format::detect(input, report), Ok)?;
     let own_labels = if labels.is_none() { format.labels(input, report)? } else { None };
-    let numbering: Option<Numbering> = match (format, labels.or(own_labels.as_deref())) {
-        (Format::Labels, Some(labels)) => Some(labels.iter().zip(0..).map(|(dof, row)| (*dof, row)).collect()),
+    let numbering = match (format, labels.or(own_labels.as_deref())) {
+        (Format::Labels, Some(labels)) => Some(Numbering::new(labels)),
         _ => None,
     };
     let most = size.map_or((bytes / SHORTEST).min(MOST_ROWS), u64::from);
@@ -73,17 +74,16 @@ fn read(
 
     let mut counts = Counts::default();
     let mut entries = 0_u64;
-    let counted = format.scan::<false>(input, known, report, |i, j, _| {
+    let heading = format.scan::<false>(input, known, report, |i, j, _| {
         entries += 1;
         counts.add(i, j);
-    });
-    if counted.is_err() || !report.problems.is_empty() {
+    })?;
+    if !report.problems.is_empty() {
         // Once more with values, so that their problems are told too.
         report.problems.clear();
         format.scan::<true>(input, known, report, |_, _, _| {})?;
         return Err(Stop);
     }
-    let heading = counted?;
     let rows = heading.rows.or(size).unwrap_or(counts.size());
     if rows == 0 || entries == 0 {
         return Err(report.fatal(None, "the file must hold a matrix", "no entries"));

@@ -1,8 +1,8 @@
 //! Where supports and points rest: weights on the rows of the matrices.
 
 use crate::dofs::{Dof, direction};
-use crate::formats::Numbering;
 use crate::input::Input;
+use crate::numbering::Numbering;
 use crate::problem::{Report, Stop};
 use crate::table::{Column, Table};
 
@@ -65,7 +65,7 @@ impl Weights {
                 let freedom = table.check(freedom, along, "one of x, y, z, rx, ry, rz", report)?;
                 let (Some(node), Some(freedom)) = (node, freedom) else { return Ok(None) };
                 let dof = Dof { node, freedom };
-                let row = target.numbering.and_then(|rows| rows.get(&dof).copied());
+                let row = target.numbering.and_then(|rows| rows.get(dof));
                 if row.is_none() {
                     report.line(table.line(), "node and direction must be among the free rows", dof)?;
                 }

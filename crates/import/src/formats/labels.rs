@@ -1,13 +1,12 @@
 //! Lines of node, freedom, node, freedom, value, as Abaqus' *MATRIX INPUT reads them.
 
-use std::collections::HashSet;
-
 use super::{Heading, Known, triplets};
 use crate::collect::Symmetry;
 use crate::dofs::Dof;
 use crate::input::Input;
 use crate::lines::{Line, Lines};
 use crate::number::Fields;
+use crate::numbering::Numbering;
 use crate::problem::{Report, Stop, excerpt};
 
 const RULE: &str = "a line must hold node, freedom, node, freedom and value";
@@ -35,22 +34,16 @@ fn labels<'a>(line: &Line<'a>, report: &mut Report) -> Result<Option<([Dof; 2], 
 /// All labels of a file, sorted by node and freedom.
 pub(super) fn collect(input: &Input, report: &mut Report) -> Result<Vec<Dof>, Stop> {
     let mut lines = Lines::open(input, report)?;
-    let mut all = HashSet::new();
-    let mut last = None;
+    let mut all = Numbering::default();
     while let Some(line) = lines.next(report)? {
         if triplets::is_comment(line.text) {
             continue;
         }
         let Some(([row, column], _)) = labels(&line, report)? else { continue };
-        if last != Some(row) {
-            all.insert(row);
-        }
-        all.insert(column);
-        last = Some(row);
+        all.set(row, 0);
+        all.set(column, 0);
     }
-    let mut all: Vec<Dof> = all.into_iter().collect();
-    all.sort_unstable();
-    Ok(all)
+    Ok(all.sorted())
 }
 
 pub(super) fn scan<const VALUES: bool>(
@@ -68,7 +61,7 @@ pub(super) fn scan<const VALUES: bool>(
             continue;
         }
         let Some((label, fields)) = labels(&line, report)? else { continue };
-        let [Some(&i), Some(&j)] = label.map(|dof| numbering.get(&dof)) else {
+        let [Some(i), Some(j)] = label.map(|dof| numbering.get(dof)) else {
             let found = format!("{} or {}", label[0], label[1]);
             report.line(line.number, "node and freedom must be among the rows of the stiffness matrix", found)?;
             continue;
@@ -77,5 +70,5 @@ pub(super) fn scan<const VALUES: bool>(
             hand_on(i, j, value);
         }
     }
-    Ok(Heading { rows: Some(numbering.len() as u32), symmetry: Symmetry::Either })
+    Ok(Heading { rows: Some(numbering.len()), symmetry: Symmetry::Either })
 }

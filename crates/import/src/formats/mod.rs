@@ -9,8 +9,6 @@ mod labels;
 mod market;
 mod triplets;
 
-use std::collections::HashMap;
-
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -19,6 +17,7 @@ use crate::dofs::Dof;
 use crate::input::Input;
 use crate::lines::Lines;
 use crate::number::Fields;
+use crate::numbering::Numbering;
 use crate::problem::{Report, Stop};
 
 /// How a matrix is written down.
@@ -34,9 +33,6 @@ pub enum Format {
     /// Harwell–Boeing: what ANSYS' HBMAT writes as ASCII.
     HarwellBoeing,
 }
-
-/// Rows by node and direction.
-pub(crate) type Numbering = HashMap<Dof, u32>;
 
 /// What is known before a file is scanned.
 #[derive(Clone, Copy)]

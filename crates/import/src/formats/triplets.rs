@@ -37,7 +37,7 @@ pub(super) fn entry<const VALUES: bool>(
 /// The last field as a value.
 #[inline]
 pub(super) fn value<const VALUES: bool>(
-    mut fields: Fields<'_>,
+    fields: Fields<'_>,
     line: &Line<'_>,
     rule: &str,
     report: &mut Report,
@@ -45,13 +45,14 @@ pub(super) fn value<const VALUES: bool>(
     if !VALUES {
         return Ok(Some(0.0));
     }
-    let field = fields.next();
-    if field.is_empty() || !fields.end() {
-        return report.line(line.number, rule, excerpt(line.text)).map(|()| None);
-    }
+    let field = fields.remainder();
     let value = real(field);
     if value.is_none() {
-        report.line(line.number, "values must be finite numbers", excerpt(field))?;
+        if field.is_empty() || Fields::new(field).next().len() < field.len() {
+            report.line(line.number, rule, excerpt(line.text))?;
+        } else {
+            report.line(line.number, "values must be finite numbers", excerpt(field))?;
+        }
     }
     Ok(value)
 }
