@@ -82,10 +82,10 @@ pub(crate) fn read(input: &Input, nodes: Option<&HashMap<u32, [f64; 3]>>, report
     };
     let dofs = order(rows, report)?;
     let known = nodes.or(Some(&coordinates).filter(|c| !c.is_empty()));
-    if let Some(known) = known {
-        if let Some(dof) = dofs.iter().find(|dof| !known.contains_key(&dof.node)) {
-            report.whole("every node must have coordinates, or none", format!("node {} has none", dof.node));
-        }
+    if let Some(known) = known
+        && let Some(dof) = dofs.iter().find(|dof| !known.contains_key(&dof.node))
+    {
+        report.whole("every node must have coordinates, or none", format!("node {} has none", dof.node));
     }
     Ok(Dofs::new(dofs, known))
 }
