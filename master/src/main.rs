@@ -12,6 +12,7 @@ mod build;
 mod cli;
 mod connect;
 mod error;
+mod generate;
 mod peaks;
 mod plot;
 mod record;
@@ -53,6 +54,7 @@ fn execute(command: Command) -> Result<(), Error> {
             );
             Ok(())
         }
+        Command::Generate(arguments) => generate::generate(&arguments),
         Command::Schema => {
             say!("{:#}", ttb_scenario::schema());
             Ok(())

@@ -152,7 +152,7 @@ impl Structure {
             }
         }
         let mut scratch = vec![0.0; x.len()];
-        pencil.factor(1.0, 0.0).unwrap().solve_in_place(&mut x, &mut scratch);
+        pencil.factor(1.0, 0.0, 0.0).unwrap().solve_in_place(&mut x, &mut scratch);
         let motion = |(dofs, held): (&[Option<u32>; 6], &[Option<f64>; 6])| {
             ALL.map(|i| dofs[i].map_or(held[i].unwrap_or(0.0), |dof| x[dof as usize]))
         };
@@ -162,7 +162,7 @@ impl Structure {
     /// Circular frequencies of the lowest modes, rad/s.
     pub fn frequencies(&self, count: usize) -> Vec<f64> {
         let (_, pencil) = self.pencil();
-        let modes = lowest(&pencil, &pencil.factor(1.0, 0.0).unwrap(), count).unwrap();
+        let modes = lowest(&pencil, &pencil.factor(1.0, 0.0, 0.0).unwrap(), count).unwrap();
         modes.omega2.iter().map(|w2| w2.sqrt()).collect()
     }
 }

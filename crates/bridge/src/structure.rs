@@ -16,6 +16,7 @@ use crate::full::Full;
 use crate::plane;
 use crate::reduced::Reduced;
 use crate::rows::Rows;
+use crate::space;
 use crate::system::{Law, System};
 
 /// The structure.

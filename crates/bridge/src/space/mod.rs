@@ -19,9 +19,8 @@ use ttb_coupling::ModelError;
 use ttb_dynamics::sparse::Assembly;
 use ttb_scenario::types::{Direction, Freedom, Model, Point};
 
-use crate::assembled::Assembled;
+use crate::assembled::{Assembled, Monitor};
 use crate::deck::Row;
-use crate::structure::Monitor;
 use elements::{Kind, Placed};
 use freedoms::Freedoms;
 use track::Track;
