@@ -13,10 +13,13 @@ use crate::table::{Column, Table};
 /// Names of a node's six motions, in order.
 pub const DIRECTIONS: [&str; 6] = ["x", "y", "z", "rx", "ry", "rz"];
 
+/// The internal node −k of an Abaqus model has the number `INTERNAL` + k.
+pub const INTERNAL: u32 = 1 << 31;
+
 /// A degree of freedom, in the axes of the program that wrote the matrices.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Dof {
-    /// Number of its node.
+    /// Number of its node; above [`INTERNAL`] an internal one.
     pub node: u32,
     /// 0…5: one of [`DIRECTIONS`].
     pub freedom: u8,
@@ -24,7 +27,11 @@ pub struct Dof {
 
 impl fmt::Display for Dof {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "node {}, {}", self.node, DIRECTIONS.get(usize::from(self.freedom)).unwrap_or(&"?"))
+        let direction = DIRECTIONS.get(usize::from(self.freedom)).unwrap_or(&"?");
+        match self.node {
+            internal if internal > INTERNAL => write!(f, "internal node {}, {direction}", internal - INTERNAL),
+            node => write!(f, "node {node}, {direction}"),
+        }
     }
 }
 

@@ -5,7 +5,7 @@
 //! held rows:      K r ≠ 0 where a support, or a spring to the ground, holds the model against the motion r
 //! ```
 
-use crate::dofs::Dofs;
+use crate::dofs::{Dofs, INTERNAL};
 use crate::files::{FileFacts, Imported};
 use crate::matrix::SymmetricMatrix;
 
@@ -126,6 +126,9 @@ impl Imported {
 
 /// Motion of a row when the model moves rigidly: u = θ × r.
 fn rigid(dofs: &Dofs, row: usize, direction: usize) -> f64 {
+    if dofs.dofs[row].node > INTERNAL {
+        return 0.0;
+    }
     let freedom = usize::from(dofs.dofs[row].freedom);
     if freedom == direction {
         return 1.0;

@@ -66,6 +66,13 @@ fn labels_order_themselves_by_node_and_freedom() {
 }
 
 #[test]
+fn internal_nodes_come_last() {
+    let read = read("k.mtx", "-1,1, -1,1, 6\n5,2, -1,1, -2.5\n5,1, 5,1, 4\n5,2, 5,2, 5\n5,1, 5,2, -1\n");
+    assert_eq!(read.matrix, expected());
+    assert_eq!(read.labels.unwrap()[2].to_string(), "internal node 1, x");
+}
+
+#[test]
 fn harwell_boeing_is_read_by_its_format_cards() {
     let symmetric = read("file.matrix", HARWELL);
     assert_eq!(symmetric.facts.format, Format::HarwellBoeing);
