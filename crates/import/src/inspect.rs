@@ -5,7 +5,7 @@
 //! held rows:      K r ≠ 0 where a support, or a spring to the ground, holds the model against the motion r
 //! ```
 
-use crate::dofs::Dofs;
+use crate::dofs::{Dofs, INTERNAL};
 use crate::files::{FileFacts, Imported};
 use crate::matrix::SymmetricMatrix;
 
@@ -44,7 +44,7 @@ pub struct Inspection {
     pub massless: Vec<usize>,
     /// Rows of K with nothing but the diagonal: springs to the ground or forgotten nodes.
     pub lone: Vec<usize>,
-    /// Rigid motions; empty if directions are unknown, translations only if coordinates are.
+    /// Rigid motions that move anything; none if directions are unknown, translations only if coordinates are.
     pub motions: Vec<Motion>,
     /// Sum of the weights on translations (all rows if directions are unknown) of every support that is not like the
     /// others': x, sum.
@@ -96,16 +96,19 @@ impl Imported {
 
     fn motions(&self, dofs: &Dofs) -> Vec<Motion> {
         let directions = if dofs.coordinates.is_some() { 6 } else { 3 };
-        let present = |d: usize| dofs.dofs.iter().any(|dof| usize::from(dof.freedom) == d);
         let motion = |direction: usize| {
             let r: Vec<f64> = (0..dofs.dofs.len()).map(|row| rigid(dofs, row, direction)).collect();
+            if r.iter().all(|r| *r == 0.0) {
+                return None;
+            }
             let inertia = self.m.product(&r).iter().zip(&r).map(|(mr, r)| mr * r).sum();
             let (force, scale) = (self.k.product(&r), self.k.magnitude(&r));
             let mut held = (0..force.len()).filter(|&i| force[i].abs() > ROUNDING * scale[i]);
             let first_held = held.next();
-            Motion { direction, inertia, held: held.count() + usize::from(first_held.is_some()), first_held }
+            let held = held.count() + usize::from(first_held.is_some());
+            Some(Motion { direction, inertia, held, first_held })
         };
-        (0..directions).filter(|&d| d > 2 || present(d)).map(motion).collect()
+        (0..directions).filter_map(motion).collect()
     }
 
     fn odd_supports(&self) -> Vec<(f64, f64)> {
@@ -123,6 +126,9 @@ impl Imported {
 
 /// Motion of a row when the model moves rigidly: u = θ × r.
 fn rigid(dofs: &Dofs, row: usize, direction: usize) -> f64 {
+    if dofs.dofs[row].node > INTERNAL {
+        return 0.0;
+    }
     let freedom = usize::from(dofs.dofs[row].freedom);
     if freedom == direction {
         return 1.0;

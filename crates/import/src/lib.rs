@@ -23,7 +23,7 @@ mod read;
 mod rows;
 mod table;
 
-pub use dofs::{DIRECTIONS, Dof, Dofs};
+pub use dofs::{DIRECTIONS, Dof, Dofs, INTERNAL};
 pub use files::{FileFacts, Files, Imported};
 pub use formats::Format;
 pub use input::Input;

@@ -56,6 +56,19 @@ impl<'a> Fields<'a> {
         (digits > 0 && ends).then_some(if digits > FIT { u64::MAX } else { number })
     }
 
+    /// Passes over a minus; was there one?
+    #[inline]
+    pub fn minus(&mut self) -> bool {
+        self.skip();
+        match self.rest {
+            [b'-', rest @ ..] => {
+                self.rest = rest;
+                true
+            }
+            _ => false,
+        }
+    }
+
     /// All that is left, without blanks around it.
     #[inline]
     pub fn remainder(mut self) -> &'a [u8] {

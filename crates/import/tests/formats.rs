@@ -36,6 +36,18 @@ fn matrix_market_is_read_from_either_triangle_or_in_full() {
 }
 
 #[test]
+fn what_scipy_writes_is_read() {
+    // scipy.io.mmwrite of SciPy 1.17: symmetry="AUTO" with precision=17, and "general" with comment="K".
+    let auto = "%%MatrixMarket matrix coordinate real symmetric\n%\n3 3 5\n1 1 4.0000000000000000e+00\n\
+        2 1 -1.0000000000000000e+00\n2 2 5.0000000000000000e+00\n3 2 -2.5000000000000000e+00\n\
+        3 3 6.0000000000000000e+00\n";
+    let general = "%%MatrixMarket matrix coordinate real general\n%K\n3 3 7\n1 1 4\n2 1 -1\n1 2 -1\n2 2 5\n\
+        3 2 -2.5\n2 3 -2.5\n3 3 6\n";
+    assert_eq!(read("k.mtx", auto).matrix, expected());
+    assert_eq!(read("k.mtx", general).matrix, expected());
+}
+
+#[test]
 fn duplicates_are_summed_in_any_order() {
     let text = "3 3 2\n2 3 -2.5\n1 1 1\n3 3 4\n2 1 -1\n1 1 3\n2 2 5\n";
     assert_eq!(read("k.sti", text).matrix, expected());
@@ -63,6 +75,13 @@ fn labels_order_themselves_by_node_and_freedom() {
     other.reverse();
     let read = read_matrix(&Input::bytes("k", text.as_bytes()), None, Some(3), Some(&other)).unwrap();
     assert_eq!(read.matrix.diagonal(), [6.0, 5.0, 4.0]);
+}
+
+#[test]
+fn internal_nodes_come_last() {
+    let read = read("k.mtx", "-1,1, -1,1, 6\n5,2, -1,1, -2.5\n5,1, 5,1, 4\n5,2, 5,2, 5\n5,1, 5,2, -1\n");
+    assert_eq!(read.matrix, expected());
+    assert_eq!(read.labels.unwrap()[2].to_string(), "internal node 1, x");
 }
 
 #[test]

@@ -96,12 +96,12 @@ fn broken_files_are_refused_with_line_rule_and_value() {
         // labels
         (
             "1,1,1,7,2.0\n".into(),
-            "line 1: nodes must be numbered from 1 to 4294967295, freedoms from 1 to 6: `1,1,1,7,2.0`",
+            "line 1: nodes must be numbered from 1 (internal ones from -1) to 2147483648, freedoms from 1 to 6: `1,1,1,7,2.0`",
         ),
         ("0,1,1,1,2.0\n".into(), "line 1: nodes must be numbered from 1"),
         (
-            "1,1,1,1,2.0\n-3,1,1,1,2\n".into(),
-            "line 2: a line must hold node, freedom, node, freedom and value: `-3,1,1,1,2`",
+            "1,1,1,1,2.0\n--3,1,1,1,2\n".into(),
+            "line 2: a line must hold node, freedom, node, freedom and value: `--3,1,1,1,2`",
         ),
         ("1,1,1,1,x\n".into(), "line 1: values must be finite numbers: `x`"),
     ];

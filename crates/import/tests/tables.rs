@@ -46,7 +46,7 @@ fn a_model_is_read_and_inspected() {
     assert!(facts.massless.is_empty() && facts.lone.is_empty() && facts.odd_supports.is_empty());
     // Along x and z 7 kg each; about y through the origin 2·1² + 5·2².
     let inertias: Vec<(usize, f64)> = facts.motions.iter().map(|m| (m.direction, m.inertia)).collect();
-    assert_eq!(inertias, [(0, 7.0), (2, 7.0), (3, 0.0), (4, 22.0), (5, 0.0)]);
+    assert_eq!(inertias, [(0, 7.0), (2, 7.0), (4, 22.0)]);
     // The first bar is held at its left end.
     assert_eq!((facts.motions[0].held, facts.motions[0].first_held), (1, Some(0)));
     assert_eq!(model.unmatched(&[1.0, 1.2]), (vec![1.2], vec![1.5]));

@@ -1,8 +1,9 @@
-//! Lines of node, freedom, node, freedom, value, as Abaqus' *MATRIX INPUT reads them.
+//! Lines of node, freedom, node, freedom, value, as Abaqus' *MATRIX INPUT reads them. Negative nodes are internal ones of
+//! elements.
 
 use super::{Heading, Known, triplets};
 use crate::collect::Symmetry;
-use crate::dofs::Dof;
+use crate::dofs::{Dof, INTERNAL};
 use crate::input::Input;
 use crate::lines::{Line, Lines};
 use crate::number::Fields;
@@ -14,18 +15,20 @@ const RULE: &str = "a line must hold node, freedom, node, freedom and value";
 /// Both labels of a line, and the fields behind them.
 fn labels<'a>(line: &Line<'a>, report: &mut Report) -> Result<Option<([Dof; 2], Fields<'a>)>, Stop> {
     let mut fields = Fields::new(line.text);
-    let mut label = || Some((fields.whole()?, fields.whole()?));
+    let mut label = || Some((fields.minus(), fields.whole()?, fields.whole()?));
     let (Some(row), Some(column)) = (label(), label()) else {
         return report.line(line.number, RULE, excerpt(line.text)).map(|()| None);
     };
-    let known = |(node, freedom): (u64, u64)| {
-        let node = u32::try_from(node).ok().filter(|node| *node > 0)?;
+    let known = |(internal, node, freedom): (bool, u64, u64)| {
+        let most = if internal { u32::MAX - INTERNAL } else { INTERNAL };
+        let node = u32::try_from(node).ok().filter(|node| (1..=most).contains(node))?;
+        let node = if internal { INTERNAL + node } else { node };
         (1..=6).contains(&freedom).then(|| Dof { node, freedom: freedom as u8 - 1 })
     };
     match (known(row), known(column)) {
         (Some(row), Some(column)) => Ok(Some(([row, column], fields))),
         _ => {
-            let rule = "nodes must be numbered from 1 to 4294967295, freedoms from 1 to 6";
+            let rule = "nodes must be numbered from 1 (internal ones from -1) to 2147483648, freedoms from 1 to 6";
             report.line(line.number, rule, excerpt(line.text)).map(|()| None)
         }
     }
