@@ -164,6 +164,14 @@ impl Factor {
         }
     }
 
+    /// Number of degrees of freedom.
+    pub fn dimension(&self) -> usize {
+        match &*self.symbolic {
+            Symbolic::Simplicial(pattern) => pattern.dimension(),
+            Symbolic::Supernodal(pattern) => pattern.order.len(),
+        }
+    }
+
     /// x ← A⁻¹ x; `scratch` has the length of `x` and is overwritten.
     pub fn solve_in_place(&self, x: &mut [f64], scratch: &mut [f64]) {
         match (&*self.symbolic, &self.numbers) {

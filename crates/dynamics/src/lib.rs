@@ -4,14 +4,17 @@
 
 pub mod band;
 pub mod beam;
+pub mod blocks;
 pub mod damping;
 pub mod dense;
 pub mod factor;
 pub mod frame;
+pub mod krylov;
 pub mod modes;
 pub mod newmark;
 pub mod order;
 pub mod pool;
+pub mod reduction;
 pub mod simplicial;
 pub mod sparse;
 pub mod supernodal;

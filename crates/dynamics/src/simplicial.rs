@@ -77,6 +77,11 @@ impl Numbers {
 }
 
 impl Pattern {
+    /// Number of degrees of freedom.
+    pub fn dimension(&self) -> usize {
+        self.order.len()
+    }
+
     /// Factorises `a` (lower triangle, of the analysed pattern), definite or not: no pivoting.
     ///
     /// # Errors

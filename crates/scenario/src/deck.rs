@@ -31,6 +31,8 @@ impl Deck {
             StructureSpec::FiniteElements(model) => {
                 Some(Self { length: model.deck.length, inner_bearings: Vec::new() })
             }
+            StructureSpec::Matrices { length, .. } => Some(Self { length: *length, inner_bearings: Vec::new() }),
+            StructureSpec::Stored => None,
         }
     }
 

@@ -1,8 +1,10 @@
 //! A checked scenario with every reference resolved: what the physics is built from, and what lies in an FMU's resources.
 
+use std::path::PathBuf;
+
 use serde::{Deserialize, Serialize};
 
-use crate::types::{Car, Contact, Damping, Frame, Model, Newmark, Point, Ramp, Span, TrackType, Wave};
+use crate::types::{Reduction, Car, Contact, Damping, Frame, Model, Newmark, Point, Ramp, Span, TrackType, Wave};
 
 /// All the train–track subsystem is built from (`resources/train-track.json`).
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -114,6 +116,8 @@ pub struct BridgeSpec {
     pub damping: Damping,
     /// Solve in this many modes; `None`: all degrees of freedom.
     pub modes: Option<usize>,
+    /// Solve in a reduced model of stated error; `None`: not.
+    pub reduction: Option<Reduction>,
     /// Where the track's supports stand on the deck, m from the bridge's begin, increasing.
     pub supports: Vec<f64>,
     /// Monitored points.
@@ -141,4 +145,15 @@ pub enum StructureSpec {
     Frame(Frame),
     /// Elements in space.
     FiniteElements(Box<Model>),
+    /// Matrices from files.
+    Matrices {
+        /// The files.
+        files: ttb_import::Files,
+        /// Folder that their paths are relative to.
+        folder: PathBuf,
+        /// m.
+        length: f64,
+    },
+    /// Matrices or a reduced model in a file beside this specification.
+    Stored,
 }

@@ -67,6 +67,9 @@ fn place(point: &Point, path: &str, structure: Option<&StructureSpec>, report: &
             Some(StructureSpec::FiniteElements(model)) => {
                 model::known_name(model, name, &format!("{path}.node"), report);
             }
+            Some(StructureSpec::Matrices { .. } | StructureSpec::Stored) => {
+                report.problem(path, "points of imported matrices are named in their file of points", "a point");
+            }
             Some(StructureSpec::Beams { .. }) => {
                 report.problem(format!("{path}.node"), "only frames have named nodes: give x", format!("`{name}`"));
             }
@@ -123,5 +126,6 @@ fn degrees_of_freedom(structure: &StructureSpec) -> usize {
             inner.saturating_add(frame.nodes.len()).saturating_mul(3).saturating_sub(fixed)
         }
         StructureSpec::FiniteElements(model) => model.nodes.len().saturating_mul(6),
+        StructureSpec::Matrices { .. } | StructureSpec::Stored => usize::MAX,
     }
 }

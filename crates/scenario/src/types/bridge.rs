@@ -130,6 +130,14 @@ pub enum Structure {
         /// The frame.
         frame: FrameChoice,
     },
+    /// Matrices that another program wrote.
+    Matrices {
+        /// Their files, relative to the scenario.
+        files: ttb_import::Files,
+        /// Length of the bridge along the track, m: supports with 0 < x < length rest on it.
+        #[schemars(extend("exclusiveMinimum" = 0))]
+        length: f64,
+    },
     /// Beams, trusses, cables and shells in space.
     FiniteElements {
         /// The model.
@@ -145,6 +153,27 @@ pub enum ModelChoice {
     File(String),
     /// The model.
     Data(Box<Model>),
+}
+
+/// Solving in modes and pseudo-modes that answer static loads and single steps exactly.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[schemars(deny_unknown_fields)]
+#[serde(default)]
+pub struct Reduction {
+    /// Highest frequency of the modes, Hz; absent: raised until `error` is met.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub highest_frequency: Option<f64>,
+    /// Greatest error of the deck's acceleration under a probe load, against all degrees of freedom, relative to the
+    /// greatest acceleration.
+    #[schemars(extend("exclusiveMinimum" = 0), range(max = 1))]
+    pub error: f64,
+}
+
+impl Default for Reduction {
+    fn default() -> Self {
+        Self { highest_frequency: None, error: 5e-3 }
+    }
 }
 
 /// The bridge.
@@ -167,4 +196,7 @@ pub struct Bridge {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 1, max = 1000))]
     pub modes: Option<usize>,
+    /// Solve in a reduced model of stated error instead of all degrees of freedom.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub reduction: Option<Reduction>,
 }

@@ -1,0 +1,186 @@
+//! Modes that a set of loads can excite, by block Lanczos with shift-invert, for models too large for [`crate::modes`].
+//!
+//! ```text
+//! A = K⁻¹M,   QᵀMQ = I,   first block Q₀ ∝ K⁻¹ Bᵀ W           W: random mixtures of the loads B
+//! A Q_j = Q T_j + Q_{j+1} R_j                                  block by block, orthogonalised twice
+//! T s = θ s   →   ω² = 1/θ,  φ = Q s                           residual ‖Aφ − θφ‖_M = ‖R s_last‖
+//! ```
+//!
+//! Because the process starts from the loads, modes that they cannot excite (those swaying sideways under a track in the
+//! middle, say) never appear. All products with the basis are dense products of blocks. (Grimes, Lewis & Simon, SIAM J.
+//! Matrix Anal. Appl. 15, 1994, 228–272.)
+
+use faer::linalg::matmul::matmul;
+use faer::{Accum, Mat, MatMut, MatRef, Par, Side};
+
+use crate::blocks::{inner, solve};
+use crate::factor::Factor;
+use crate::sparse::Pencil;
+
+/// Vectors in a block.
+const BLOCK: usize = 16;
+/// Residual of A φ = θ φ relative to θ at which a mode is taken as found.
+const TOLERANCE: f64 = 1e-9;
+
+/// The process; can be continued for more modes.
+pub struct Krylov<'a> {
+    pencil: &'a Pencil,
+    stiffness: &'a Factor,
+    n: usize,
+    /// Q by columns.
+    basis: Vec<f64>,
+    /// T, and R below its last block: (columns + one block) × columns.
+    t: Vec<Vec<f64>>,
+    /// The space is exhausted.
+    complete: bool,
+}
+
+/// Ritz values of the space so far.
+pub struct Ritz {
+    /// ω² of the modes found, lowest first.
+    pub omega2: Vec<f64>,
+    /// Their s by columns.
+    coordinates: Mat<f64>,
+}
+
+impl<'a> Krylov<'a> {
+    /// Starts from mixtures of the loads; `loads` are rows of weights on degrees of freedom.
+    pub fn new(pencil: &'a Pencil, stiffness: &'a Factor, loads: &[Vec<(u32, f64)>]) -> Self {
+        let n = pencil.ndof();
+        let mut this = Self { pencil, stiffness, n, basis: Vec::new(), t: Vec::new(), complete: false };
+        let mut block = vec![0.0; n * BLOCK];
+        let mut random = 1_u64;
+        for load in loads {
+            for column in 0..BLOCK {
+                // Deterministic: a linear congruence (Knuth, The Art of Computer Programming 2, 1998, section 3.3.4).
+                random = random.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+                let weight = (random >> 11) as f64 / (1_u64 << 52) as f64 - 1.0;
+                load.iter().for_each(|(dof, w)| block[column * n + *dof as usize] += weight * w);
+            }
+        }
+        solve(stiffness, &mut block);
+        this.append(block);
+        this
+    }
+
+    /// Vectors in the basis.
+    pub fn dimension(&self) -> usize {
+        self.t.len()
+    }
+
+    /// Orthonormalises a block against the basis and itself, and appends what is left; returns all coefficients by columns.
+    fn append(&mut self, mut block: Vec<f64>) -> Vec<Vec<f64>> {
+        let (n, width) = (self.n, block.len() / self.n);
+        let known = self.basis.len() / n;
+        let mut coefficients = vec![vec![0.0; known]; width];
+        // Twice is enough (Parlett, The Symmetric Eigenvalue Problem, 1998, section 6.9).
+        for _ in 0..2 {
+            let mass = self.mass(&block);
+            let q = MatRef::from_column_major_slice(&self.basis, n, known);
+            let c = inner(q, MatRef::from_column_major_slice(&mass, n, width));
+            let rest = MatMut::from_column_major_slice_mut(&mut block, n, width);
+            matmul(rest, Accum::Add, q, c.as_ref(), -1.0, Par::Seq);
+            for (column, sums) in coefficients.iter_mut().enumerate() {
+                sums.iter_mut().enumerate().for_each(|(i, sum)| *sum += c[(i, column)]);
+            }
+        }
+        // Inside the block: G = XᵀMX = V diag(g) Vᵀ; directions without mass of their own are dropped.
+        let mut transform = Mat::<f64>::identity(width, width);
+        let mut kept = width;
+        for pass in 0..2 {
+            let mass = self.mass(&block);
+            let x = MatRef::from_column_major_slice(&block, n, kept);
+            let gram = inner(x, MatRef::from_column_major_slice(&mass, n, kept));
+            let Ok(eigen) = gram.self_adjoint_eigen(Side::Lower) else { break };
+            let values: Vec<f64> = eigen.S().column_vector().iter().copied().collect();
+            let largest = values.iter().fold(0.0_f64, |m, x| m.max(*x));
+            let floor = if pass == 0 { 1e-20 } else { 1e-6 };
+            let good: Vec<usize> = (0..kept).filter(|&i| values[i] > floor * largest && values[i] > 0.0).collect();
+            let v = eigen.U();
+            let scale = Mat::from_fn(kept, good.len(), |i, j| v[(i, good[j])] / values[good[j]].sqrt());
+            let back = Mat::from_fn(good.len(), kept, |i, j| v[(j, good[i])] * values[good[i]].sqrt());
+            let mut next = vec![0.0; n * good.len()];
+            matmul(
+                MatMut::from_column_major_slice_mut(&mut next, n, good.len()),
+                Accum::Replace,
+                x,
+                scale.as_ref(),
+                1.0,
+                Par::Seq,
+            );
+            transform = &back * &transform;
+            (block, kept) = (next, good.len());
+        }
+        for (column, sums) in coefficients.iter_mut().enumerate() {
+            sums.extend((0..kept).map(|i| transform[(i, column)]));
+        }
+        self.complete |= kept == 0;
+        self.basis.extend_from_slice(&block);
+        coefficients
+    }
+
+    fn mass(&self, block: &[f64]) -> Vec<f64> {
+        let mut product = vec![0.0; block.len()];
+        for (x, y) in block.chunks_exact(self.n).zip(product.chunks_exact_mut(self.n)) {
+            self.pencil.add_mass(x, y);
+        }
+        product
+    }
+
+    /// Enlarges the space by `blocks` blocks.
+    fn advance(&mut self, blocks: usize) {
+        for _ in 0..blocks {
+            let from = self.t.len() * self.n;
+            if self.complete || from >= self.basis.len() {
+                self.complete = true;
+                return;
+            }
+            let mut next = self.mass(&self.basis[from..]);
+            solve(self.stiffness, &mut next);
+            let columns = self.append(next);
+            self.t.extend(columns);
+        }
+    }
+
+    /// All modes up to `highest` (rad/s) that the loads excite, or as many as fit into `most` vectors.
+    pub fn modes(&mut self, highest: f64, most: usize) -> Ritz {
+        let theta = 1.0 / (highest * highest);
+        loop {
+            // A look costs a dense eigenproblem: not after every block.
+            self.advance(2 + self.t.len() / (8 * BLOCK));
+            let p = self.t.len();
+            let t = Mat::from_fn(p, p, |i, j| self.t[i.max(j)].get(i.min(j)).copied().unwrap_or(0.0));
+            let Ok(eigen) = t.self_adjoint_eigen(Side::Lower) else {
+                return Ritz { omega2: Vec::new(), coordinates: Mat::zeros(p, 0) };
+            };
+            let values = eigen.S().column_vector();
+            let residual = |j: usize| {
+                let below = (p..self.basis.len() / self.n).map(|i| {
+                    let row = (0..p).map(|k| self.t[k].get(i).copied().unwrap_or(0.0) * eigen.U()[(k, j)]);
+                    row.sum::<f64>()
+                });
+                below.map(|r| r * r).sum::<f64>().sqrt()
+            };
+            // Ascending θ: the highest come last.
+            let found = |j: usize| self.complete || residual(j) <= TOLERANCE * values[j];
+            let wanted: Vec<usize> = (0..p).rev().take_while(|&j| values[j] >= theta).collect();
+            let all = wanted.iter().all(|&j| found(j)) && wanted.len() < p;
+            if all || self.complete || p >= most {
+                let kept: Vec<usize> = wanted.into_iter().take_while(|&j| found(j)).collect();
+                let omega2 = kept.iter().map(|&j| 1.0 / values[j]).collect();
+                let coordinates = Mat::from_fn(p, kept.len(), |i, j| eigen.U()[(i, kept[j])]);
+                return Ritz { omega2, coordinates };
+            }
+        }
+    }
+
+    /// R Φ by rows, for sparse rows R.
+    pub fn seen(&self, ritz: &Ritz, rows: &[Vec<(u32, f64)>]) -> Mat<f64> {
+        let p = ritz.coordinates.nrows();
+        let of_basis = Mat::from_fn(rows.len(), p, |i, j| {
+            let q = &self.basis[j * self.n..(j + 1) * self.n];
+            rows[i].iter().map(|(dof, w)| w * q[*dof as usize]).sum::<f64>()
+        });
+        &of_basis * &ritz.coordinates
+    }
+}
