@@ -2,7 +2,6 @@
 
 use std::path::{Path, PathBuf};
 
-use serde::Serialize;
 use ttb_bridge::Bridge;
 use ttb_coupling::Model;
 use ttb_model_description::package::LIBRARY_EXTENSION;
@@ -20,18 +19,16 @@ pub struct Built {
     pub bridge: PathBuf,
 }
 
-/// One of our FMUs: model identifier, shared library, resource, purpose.
+/// One of our FMUs: model identifier, shared library, purpose.
 struct Kind {
     identifier: &'static str,
     library: &'static str,
-    resource: &'static str,
     description: &'static str,
 }
 
 const TRAIN_TRACK: Kind = Kind {
     identifier: "TrainTrack",
     library: "fmu_train_track",
-    resource: "train-track.json",
     description: "Railway cars (10 degrees of freedom each) on rail and supports with Hertzian wheel-rail contact. Inputs: \
                   motion of the bridge deck under the supports; outputs: forces of the supports on the deck, and results of \
                   train and wheels. Vertical plane, z down; displacements are changes from the dead-load state.",
@@ -39,7 +36,6 @@ const TRAIN_TRACK: Kind = Kind {
 const BRIDGE: Kind = Kind {
     identifier: "Bridge",
     library: "fmu_bridge",
-    resource: "bridge.json",
     description: "A bridge of finite elements. Inputs: forces of the track's supports on the deck; outputs: motion of the deck \
                   under the supports, and monitored points. Vertical plane, z down; displacements are changes from the \
                   dead-load state.",
@@ -67,20 +63,24 @@ pub fn build(checked: &Checked, folder: &Path) -> Result<Built, Error> {
 /// Writes TrainTrack.fmu.
 pub fn train_track(checked: &Checked, folder: &Path) -> Result<PathBuf, Error> {
     let model = TrainTrack::new(checked.train_track.clone()).map_err(|e| Error::Input(e.to_string()))?;
-    write(&TRAIN_TRACK, &model, &checked.train_track, folder)
+    let text = serde_json::to_vec(&checked.train_track).map_err(|e| Error::Pack(format!("train-track.json: {e}")))?;
+    write(&TRAIN_TRACK, &model, &[("train-track.json", text)], folder)
 }
 
 /// Writes Bridge.fmu.
 pub fn bridge(checked: &Checked, folder: &Path) -> Result<PathBuf, Error> {
     let model = Bridge::new(checked.bridge.clone()).map_err(|e| Error::Input(e.to_string()))?;
-    write(&BRIDGE, &model, &checked.bridge, folder)
+    let files = model.resources(&checked.bridge).map_err(|e| Error::Pack(e.to_string()))?;
+    write(&BRIDGE, &model, &files, folder)
 }
 
-fn write<M: Model>(kind: &Kind, model: &M, spec: &impl Serialize, folder: &Path) -> Result<PathBuf, Error> {
+/// Writes the FMU of a model with its resources, name and content of each.
+fn write<M: Model>(kind: &Kind, model: &M, files: &[(&str, Vec<u8>)], folder: &Path) -> Result<PathBuf, Error> {
     let resources = tempfile::tempdir().map_err(Error::io(Path::new("temporary folder")))?;
-    let resource = resources.path().join(kind.resource);
-    let text = serde_json::to_string(spec).map_err(|e| Error::Pack(format!("{}: {e}", kind.resource)))?;
-    std::fs::write(&resource, text).map_err(Error::io(&resource))?;
+    for (name, content) in files {
+        let path = resources.path().join(name);
+        std::fs::write(&path, content).map_err(Error::io(&path))?;
+    }
     let path = folder.join(format!("{}.fmu", kind.identifier));
     let contents = Contents {
         interface: model.interface(),

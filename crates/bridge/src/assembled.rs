@@ -1,5 +1,6 @@
 //! What every description of a bridge in space comes down to: equations, places, and rows that lead in and out.
 
+use serde::{Deserialize, Serialize};
 use ttb_dynamics::sparse::Assembly;
 
 use crate::deck::Row;
@@ -28,7 +29,7 @@ pub struct Assembled {
 pub type Names = Box<dyn Fn(usize) -> String + Send + Sync>;
 
 /// A monitored point: its rows in [`Assembled::monitors`].
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Monitor {
     /// Name.
     pub name: String,

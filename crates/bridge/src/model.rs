@@ -6,12 +6,17 @@ use std::sync::Arc;
 use ttb_coupling::{Interface, Model, ModelError, Values};
 use ttb_dynamics::newmark::Motion;
 use ttb_dynamics::pool::Pool;
-use ttb_scenario::spec::BridgeSpec;
+use ttb_scenario::spec::{BridgeSpec, StructureSpec};
 
 use crate::interface::{self, Parameters};
 use crate::march::{Forces, March, Seen};
+use crate::reduction::Accuracy;
 use crate::state::{Data, State};
+use crate::stored;
 use crate::structure::Structure;
+
+/// Name of the specification among an FMU's resources.
+const RESOURCE: &str = "bridge.json";
 
 /// A bridge.
 pub struct Bridge {
@@ -43,7 +48,12 @@ impl Bridge {
     /// # Errors
     /// Anything in the specification that cannot be: the message names it.
     pub fn new(spec: BridgeSpec) -> Result<Self, ModelError> {
-        let structure = Structure::new(&spec)?;
+        Self::from_folder(spec, Path::new(""))
+    }
+
+    /// As [`Bridge::new`], with what the specification leaves to a file in `folder`.
+    fn from_folder(spec: BridgeSpec, folder: &Path) -> Result<Self, ModelError> {
+        let structure = Structure::new(&spec, folder)?;
         let (unknowns, supports) = (structure.system.unknowns(), structure.supports);
         let law = structure.law(structure.damping_ratio(), 1.0, 1.0)?;
         let rest = Arc::new(Data::rest(unknowns, supports));
@@ -68,6 +78,29 @@ impl Bridge {
     /// Unknowns solved for: degrees of freedom, or modes.
     pub fn unknowns(&self) -> usize {
         self.structure.system.unknowns()
+    }
+
+    /// The files that an FMU of this bridge needs: name and content.
+    ///
+    /// # Errors
+    /// Not enough memory.
+    pub fn resources(&self, spec: &BridgeSpec) -> Result<Vec<(&'static str, Vec<u8>)>, ModelError> {
+        let text = |spec: &BridgeSpec| {
+            let text = serde_json::to_vec(spec).map_err(|e| ModelError(format!("{RESOURCE} cannot be made: {e}")))?;
+            Ok((RESOURCE, text))
+        };
+        Ok(match self.structure.to_store() {
+            None => vec![text(spec)?],
+            Some(stored) => {
+                let spec = BridgeSpec { structure: StructureSpec::Stored, ..spec.clone() };
+                vec![text(&spec)?, (stored::FILE, stored.bytes()?)]
+            }
+        })
+    }
+
+    /// How wrong a reduced model is.
+    pub fn accuracy(&self) -> Option<&Accuracy> {
+        self.structure.accuracy.as_ref()
     }
 
     /// Total mass under the parameters in force, kg.
@@ -140,12 +173,12 @@ impl Model for Bridge {
     const DIRECTIONAL_DERIVATIVES: bool = true;
 
     fn load(resources: &Path) -> Result<Self, ModelError> {
-        let path = resources.join("bridge.json");
+        let path = resources.join(RESOURCE);
         let text =
             std::fs::read_to_string(&path).map_err(|e| ModelError(format!("cannot read {}: {e}", path.display())))?;
         let spec =
             serde_json::from_str(&text).map_err(|e| ModelError(format!("{} is damaged: {e}", path.display())))?;
-        Self::new(spec)
+        Self::from_folder(spec, resources)
     }
 
     fn interface(&self) -> &Interface {

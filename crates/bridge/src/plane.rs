@@ -21,7 +21,7 @@ pub fn assemble(spec: &BridgeSpec) -> Result<Assembled, ModelError> {
             crate::beams::mesh(spans, *continuous)?
         }
         StructureSpec::Frame(frame) => crate::frame::mesh(frame)?,
-        StructureSpec::FiniteElements(_) => return Err(ModelError("bridge: a model in space is not plane".into())),
+        _ => return Err(ModelError("bridge: this structure is not plane".into())),
     };
     let deck = Deck::new(&mesh)?;
     let supports = support_rows(&mesh, &deck, &spec.supports)?;

@@ -26,6 +26,11 @@ impl Reduced {
     pub fn new(omega2: Vec<f64>) -> Self {
         Self { omega2 }
     }
+
+    /// The ω².
+    pub fn omega2(&self) -> &[f64] {
+        &self.omega2
+    }
 }
 
 impl System for Reduced {

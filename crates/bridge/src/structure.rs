@@ -1,11 +1,13 @@
 //! From the specification to equations, and to the rows that lead in and out of them: all that no parameter touches.
 
+use std::path::Path;
 use std::sync::Arc;
 
 use ttb_coupling::ModelError;
 use ttb_dynamics::damping::rayleigh;
 use ttb_dynamics::factor::{Factor, FactorError, Layout};
 use ttb_dynamics::modes::{Modes, lowest};
+use ttb_dynamics::newmark::Newmark;
 use ttb_dynamics::sparse::Pencil;
 use ttb_scenario::spec::{BridgeSpec, StructureSpec};
 use ttb_scenario::types::{Damping, RayleighAt};
@@ -13,11 +15,12 @@ use ttb_scenario::types::{Damping, RayleighAt};
 use crate::assembled::{Assembled, Monitor, Names};
 use crate::deck::Row;
 use crate::full::Full;
-use crate::plane;
 use crate::reduced::Reduced;
+use crate::reduction::{self, Accuracy};
 use crate::rows::Rows;
-use crate::space;
+use crate::stored::{Source, Stored};
 use crate::system::{Law, System};
+use crate::{imported, plane, space};
 
 /// The structure.
 pub struct Structure {
@@ -25,7 +28,8 @@ pub struct Structure {
     pub ndof: usize,
     /// Mass, kg, without a factor.
     pub mass: f64,
-    pencil: Arc<Pencil>,
+    /// The matrices; of a reduced model that was stored nothing is left of them.
+    pencil: Option<Arc<Pencil>>,
     /// ω² of the modes that damping or reduction need, lowest first.
     omega2: Vec<f64>,
     damping: Damping,
@@ -37,17 +41,23 @@ pub struct Structure {
     pub supports: usize,
     /// The monitored points; they read [`Structure::rows`].
     pub points: Vec<Monitor>,
+    /// A reduced model's error against all degrees of freedom.
+    pub accuracy: Option<Accuracy>,
+    /// What its FMU keeps in a file of its own.
+    source: Option<Source>,
 }
 
 impl Structure {
-    /// Meshes, assembles, factorises K, finds modes where they are needed.
+    /// Meshes, assembles, factorises K, finds modes, reduces; or reads what was stored in `folder`.
     ///
     /// # Errors
     /// Anything in the specification that cannot be: the message names it.
-    pub fn new(spec: &BridgeSpec) -> Result<Self, ModelError> {
+    pub fn new(spec: &BridgeSpec, folder: &Path) -> Result<Self, ModelError> {
         let assembled = match &spec.structure {
             StructureSpec::Beams { .. } | StructureSpec::Frame(_) => plane::assemble(spec)?,
             StructureSpec::FiniteElements(model) => space::assemble(model, &spec.supports, &spec.points)?,
+            StructureSpec::Matrices { files, folder, .. } => imported::assemble(files, folder, &spec.supports)?,
+            StructureSpec::Stored => return Self::stored(spec, folder),
         };
         Self::from_assembled(assembled, spec)
     }
@@ -66,12 +76,72 @@ impl Structure {
             point.motion += first_monitor;
             point.moment.iter_mut().for_each(|row| *row += first_monitor);
         }
-        let rows = Rows::new(&[supports, monitors].concat());
-        let omega2 = modes.omega2.clone();
-        let (system, rows) = solver(spec, &pencil, statics, modes, rows);
-        let damping = spec.damping.clone();
-        let rows = Arc::new(rows);
-        Ok(Self { ndof, mass, pencil, omega2, damping, system, rows, supports: first_monitor, points })
+        let mut this = Self {
+            ndof,
+            mass,
+            pencil: Some(Arc::clone(&pencil)),
+            omega2: modes.omega2.clone(),
+            damping: spec.damping.clone(),
+            system: Arc::new(Reduced::new(Vec::new())),
+            rows: Arc::new(Rows::new(&[])),
+            supports: first_monitor,
+            points,
+            accuracy: None,
+            source: None,
+        };
+        this.solver(spec, statics, modes, [supports, monitors].concat())?;
+        Ok(this)
+    }
+
+    /// All degrees of freedom, the lowest modes, or a reduced model.
+    fn solver(
+        &mut self,
+        spec: &BridgeSpec,
+        statics: Arc<Factor>,
+        mut modes: Modes,
+        rows: Vec<Row>,
+    ) -> Result<(), ModelError> {
+        let Some(pencil) = self.pencil.clone() else { return Ok(()) };
+        // Plane models and lowest modes are made anew from their few numbers.
+        let small = matches!(spec.structure, StructureSpec::Beams { .. } | StructureSpec::Frame(_));
+        if let Some(wish) = &spec.reduction {
+            let law = self.law(self.damping_ratio(), 1.0, 1.0)?;
+            let newmark = Newmark::new(spec.newmark.gamma, spec.newmark.beta, spec.step);
+            drop(statics);
+            let built = reduction::build(&pencil, &law, newmark, &rows, &spec.supports, wish)?;
+            self.accuracy = Some(built.accuracy);
+            self.source = Some(Source::Reduced { omega2: built.system.omega2().to_vec() });
+            (self.system, self.rows) = (Arc::new(built.system), Arc::new(built.rows));
+        } else if let Some(count) = spec.modes {
+            modes.shapes.truncate(count);
+            modes.omega2.truncate(count);
+            self.rows = Arc::new(Rows::new(&rows).project(&modes.shapes));
+            self.source = (!small).then(|| Source::Reduced { omega2: modes.omega2.clone() });
+            self.system = Arc::new(Reduced::new(modes.omega2));
+        } else {
+            let damped = if matches!(spec.damping, Damping::Modal { .. }) { modes } else { Modes::default() };
+            self.rows = Arc::new(Rows::new(&rows));
+            let shapes = damped.shapes.clone();
+            self.source = (!small).then(|| Source::Full { pencil: Arc::clone(&pencil), shapes });
+            self.system = Arc::new(Full::new(pencil, Some(statics), damped));
+        }
+        Ok(())
+    }
+
+    fn stored(spec: &BridgeSpec, folder: &Path) -> Result<Self, ModelError> {
+        let mut stored = Stored::read(folder)?;
+        let (system, rows, pencil) = stored.system()?;
+        let Stored { ndof, mass, omega2, supports, points, accuracy, .. } = stored;
+        let (damping, rows) = (spec.damping.clone(), Arc::new(rows));
+        Ok(Self { ndof, mass, pencil, omega2, damping, system, rows, supports, points, accuracy, source: None })
+    }
+
+    /// What its FMU keeps in a file of its own, if it does.
+    pub fn to_store(&self) -> Option<Stored> {
+        let numbers = [self.ndof, self.supports];
+        let accuracy = self.accuracy.as_ref();
+        let source = self.source.as_ref()?;
+        Some(Stored::new(source, &self.rows, numbers, self.mass, &self.omega2, &self.points, accuracy))
     }
 
     /// The damping ratio of the specification.
@@ -125,28 +195,12 @@ impl Structure {
     /// # Errors
     /// More are asked for than there are.
     pub fn natural_frequencies(&self, count: usize) -> Result<Vec<f64>, ModelError> {
-        let statics = self.pencil.factor(1.0, 0.0, 0.0).map_err(in_bridge)?;
-        let modes = lowest(&self.pencil, &statics, count).map_err(in_bridge)?;
+        let pencil = self.pencil.as_ref();
+        let pencil = pencil.ok_or_else(|| in_bridge("a stored reduced model has no natural frequencies of its own"))?;
+        let statics = pencil.factor(1.0, 0.0, 0.0).map_err(in_bridge)?;
+        let modes = lowest(pencil, &statics, count).map_err(in_bridge)?;
         Ok(modes.frequencies().collect())
     }
-}
-
-/// All degrees of freedom, or the lowest modes.
-fn solver(
-    spec: &BridgeSpec,
-    pencil: &Arc<Pencil>,
-    statics: Arc<Factor>,
-    mut modes: Modes,
-    rows: Rows,
-) -> (Arc<dyn System>, Rows) {
-    if let Some(count) = spec.modes {
-        modes.shapes.truncate(count);
-        modes.omega2.truncate(count);
-        let rows = rows.project(&modes.shapes);
-        return (Arc::new(Reduced::new(modes.omega2)), rows);
-    }
-    let damped = if matches!(spec.damping, Damping::Modal { .. }) { modes } else { Modes::default() };
-    (Arc::new(Full::new(Arc::clone(pencil), Some(statics), damped)), rows)
 }
 
 /// The supports' degrees of freedom, if eliminating them last adds little to the factor.

@@ -52,28 +52,41 @@ const DEPENDENT: f64 = 1e-10;
 /// Least 1/ω² of a pseudo-mode relative to the largest: below, rounding.
 const STIFFEST: f64 = 1e-14;
 
-/// The model; B are the first `supports` of the `rows`.
-pub fn reduce(
-    pencil: &Pencil,
-    stiffness: &Factor,
-    step: &StepMatrix,
-    krylov: &Krylov,
-    ritz: &Ritz,
-    rows: &[Vec<(u32, f64)>],
-    supports: usize,
-) -> Basis {
+/// R Z and ZᵀMZ of Z = K⁻¹Bᵀ and of Z = K̂⁻¹Bᵀ: all that a reduction needs of the large model besides its modes.
+pub struct Answers {
+    x: (Mat<f64>, Mat<f64>),
+    y: (Mat<f64>, Mat<f64>),
+    stiffness: f64,
+    mass: f64,
+}
+
+impl Answers {
+    /// B are the first `supports` of the `rows`; `stiffness` is the factor of K.
+    pub fn new(
+        pencil: &Pencil,
+        stiffness: &Factor,
+        step: &StepMatrix,
+        rows: &[Vec<(u32, f64)>],
+        supports: usize,
+    ) -> Self {
+        let x = responses(pencil, stiffness, &rows[..supports], rows);
+        let y = responses(pencil, step.factor, &rows[..supports], rows);
+        Self { x, y, stiffness: step.stiffness, mass: step.mass }
+    }
+}
+
+/// The model.
+pub fn reduce(answers: &Answers, krylov: &Krylov, ritz: &Ritz, rows: &[Vec<(u32, f64)>]) -> Basis {
+    let Answers { x: (x_seen, x_mass), y: (y_seen, y_mass), stiffness: c_k, mass: c_m } = answers;
+    let (c_k, c_m, supports) = (*c_k, *c_m, x_mass.ncols());
     let seen = krylov.seen(ritz, rows);
-    let loads = &rows[..supports];
     // Less Φ diag((c_K ω² + shift)^power) P, seen through the rows.
-    let less = |matrix: Mat<f64>, power: f64, shift: f64, factor: f64| -> Mat<f64> {
+    let less = |matrix: &Mat<f64>, power: f64, shift: f64, factor: f64| -> Mat<f64> {
         let weights: Vec<f64> = ritz.omega2.iter().map(|w2| (factor * w2 + shift).powf(power)).collect();
         let weighted = Mat::from_fn(weights.len(), supports, |k, j| weights[k] * seen[(j, k)]);
         let part = seen.subrows(0, matrix.nrows()) * &weighted;
         matrix - part
     };
-    let (c_k, c_m) = (step.stiffness, step.mass);
-    let (x_seen, x_mass) = responses(pencil, stiffness, loads, rows);
-    let (y_seen, y_mass) = responses(pencil, step.factor, loads, rows);
     // R X and R Y, less their part in the modes.
     let (rx, ry) = (less(x_seen, -1.0, 0.0, 1.0), less(y_seen, -1.0, c_m, c_k));
     let (kxx, kxy) = (rx.subrows(0, supports).to_owned(), ry.subrows(0, supports).to_owned());

@@ -64,11 +64,9 @@ fn structure(structure: &Structure, base_dir: &Path, report: &mut Report) -> Opt
         }
         Structure::Frame { frame: FrameChoice::Bundled(name) } => bundled::frame(name).map(StructureSpec::Frame),
         Structure::Frame { frame: FrameChoice::Data(frame) } => Some(StructureSpec::Frame((**frame).clone())),
-        Structure::Matrices { files, length } => Some(StructureSpec::Matrices {
-            files: files.clone(),
-            folder: base_dir.to_path_buf(),
-            length: *length,
-        }),
+        Structure::Matrices { files, length } => {
+            Some(StructureSpec::Matrices { files: files.clone(), folder: base_dir.to_path_buf(), length: *length })
+        }
         Structure::FiniteElements { model: ModelChoice::File(file) } => {
             let model = model::read(&base_dir.join(file), report)?;
             Some(StructureSpec::FiniteElements(Box::new(model)))

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use serde::{Deserialize, Serialize};
 
-use crate::types::{Reduction, Car, Contact, Damping, Frame, Model, Newmark, Point, Ramp, Span, TrackType, Wave};
+use crate::types::{Car, Contact, Damping, Frame, Model, Newmark, Point, Ramp, Reduction, Span, TrackType, Wave};
 
 /// All the train–track subsystem is built from (`resources/train-track.json`).
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

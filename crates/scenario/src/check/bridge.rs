@@ -38,6 +38,10 @@ pub(super) fn check(pieces: &Pieces, resolved: &Resolved, report: &mut Report) {
 
 /// A point lies on the deck or at a node.
 fn place(point: &Point, path: &str, structure: Option<&StructureSpec>, report: &mut Report) {
+    if let Some(StructureSpec::Matrices { .. }) = structure {
+        let found = format!("`{}`", point.name);
+        return report.problem(path, "points of imported matrices stand in the file `points` of the structure", found);
+    }
     match (&point.x, &point.node) {
         (Some(_), Some(_)) => report.problem(path, "a point has either x or node", "both"),
         (None, None) => report.problem(path, "a point has either x or node", "neither"),
@@ -67,11 +71,12 @@ fn place(point: &Point, path: &str, structure: Option<&StructureSpec>, report: &
             Some(StructureSpec::FiniteElements(model)) => {
                 model::known_name(model, name, &format!("{path}.node"), report);
             }
-            Some(StructureSpec::Matrices { .. } | StructureSpec::Stored) => {
-                report.problem(path, "points of imported matrices are named in their file of points", "a point");
-            }
-            Some(StructureSpec::Beams { .. }) => {
-                report.problem(format!("{path}.node"), "only frames have named nodes: give x", format!("`{name}`"));
+            Some(_) => {
+                report.problem(
+                    format!("{path}.node"),
+                    "only frames and models in space have named nodes: give x",
+                    format!("`{name}`"),
+                );
             }
             None => {}
         },
