@@ -9,9 +9,8 @@ const PLATE: Plate = Plate { modulus: 1e6, poisson: 0.25, thickness: 1e-3, mass:
 const SHAPES: [Shape; 3] = [Shape::Quad, Shape::Triangle, Shape::OtherTriangle];
 
 fn patch(shape: Shape, plate: Plate) -> Structure {
-    let places = [
-        (0.0, 0.0), (0.24, 0.0), (0.24, 0.12), (0.0, 0.12), (0.04, 0.02), (0.18, 0.03), (0.16, 0.08), (0.08, 0.08),
-    ];
+    let places =
+        [(0.0, 0.0), (0.24, 0.0), (0.24, 0.12), (0.0, 0.12), (0.04, 0.02), (0.18, 0.03), (0.16, 0.08), (0.08, 0.08)];
     let mut s = Structure::new(places.map(|(x, y)| [x, y, 0.0]).to_vec());
     for corners in [[0, 1, 5, 4], [1, 2, 6, 5], [2, 3, 7, 6], [3, 0, 4, 7], [4, 5, 6, 7]] {
         s.shell(shape, plate, corners);
@@ -28,7 +27,7 @@ fn error(mut s: Structure, field: impl Fn(f64, f64) -> [f64; 6]) -> f64 {
     let motion = s.solve();
     let exact: Vec<[f64; 6]> = s.nodes.iter().map(|p| field(p[0], p[1])).collect();
     let worst = |kind: std::ops::Range<usize>| {
-        let scale = exact.iter().flat_map(|m| m[kind.clone()].to_vec()).fold(1e-4, |a, b: f64| a.max(b.abs()));
+        let scale = exact.iter().flat_map(|m| m[kind.clone()].to_vec()).fold(1e-4, |a: f64, b| a.max(b.abs()));
         let pairs = motion.iter().zip(&exact).flat_map(|(a, b)| kind.clone().map(|i| (a[i] - b[i]).abs()));
         pairs.fold(0.0, f64::max) / scale
     };

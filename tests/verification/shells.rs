@@ -85,9 +85,8 @@ fn cooks_membrane() {
     let plate = Plate { modulus: 1.0, poisson: 1.0 / 3.0, thickness: 1.0, mass: 0.0 };
     for shape in SHAPES {
         for n in [2, 4, 8, 16, 32] {
-            let mut s = Structure::surface([n, n], shape, plate, |u, v| {
-                [48.0 * u, 44.0 * u + v * (44.0 - 28.0 * u), 0.0]
-            });
+            let mut s =
+                Structure::surface([n, n], shape, plate, |u, v| [48.0 * u, 44.0 * u + v * (44.0 - 28.0 * u), 0.0]);
             s.hold(|_| true, &[Z, RX, RY]);
             s.hold(|p| p[0] == 0.0, &ALL);
             for j in 0..=n {
