@@ -2,8 +2,8 @@
 
 use nalgebra::Vector3;
 
-use super::flat::{Flat, interpolate};
-use super::membrane4::{area, bilinear, shapes};
+use super::flat::{Flat, Products, interpolate};
+use super::membrane4::{GAUSS, area, bilinear, shapes};
 use super::{Plate, bending, membrane4};
 use crate::error::ElementError;
 use crate::matrices::{Matrices, Weights};
@@ -68,15 +68,12 @@ impl Shell4 {
         let corners = &self.flat.corners;
         let membrane = membrane4::stiffness(corners, &self.plate);
         let bending = bending::quadrilateral(corners, &self.plate);
-        // N_i N_j times the Jacobian has degree 3 in ξ and η: two Gauss points are exact.
-        let (g, mut shared) = (1.0 / 3.0_f64.sqrt(), [[0.0; 4]; 4]);
-        for (xi, eta) in [(-g, -g), (g, -g), (g, g), (-g, g)] {
+        let points = GAUSS.into_iter().flat_map(|x| GAUSS.map(|y| (x, y)));
+        let products = Products::new(points.map(|((xi, wx), (eta, wy))| {
             let (n, _, jacobian) = bilinear(corners, xi, eta);
-            for (row, a) in shared.iter_mut().zip(n) {
-                row.iter_mut().zip(n).for_each(|(s, b)| *s += jacobian * a * b);
-            }
-        }
-        self.flat.matrices(&self.plate, &membrane, &bending, &shared)
+            (n, edges(xi, eta), wx * wy * jacobian)
+        }));
+        self.flat.matrices(&self.nodes, &self.plate, &membrane, &bending, &products)
     }
 
     /// (ξ, η), each between −1 and 1, of the point over or under which (x, y) lies; `None` outside, beyond `slack` (in ξ
@@ -111,8 +108,14 @@ impl Shell4 {
     }
 
     /// Row that gives the displacement along `direction` of a point `arm` (global, m) away from the element at (ξ, η).
-    /// It is bilinear between the nodes, so that rigid motions come out exactly.
+    /// Rigid motions come out exactly; the element's own shapes as in its M, so that it is smooth along its edges.
     pub fn interpolate(&self, [xi, eta]: [f64; 2], direction: [f64; 3], arm: [f64; 3]) -> Weights {
-        interpolate(&shapes(xi, eta).0, direction, arm)
+        interpolate(&self.nodes, &shapes(xi, eta).0, &edges(xi, eta), direction, arm)
     }
+}
+
+/// P: 1 in the middle of an edge, 0 on the others.
+fn edges(xi: f64, eta: f64) -> [f64; 4] {
+    let (x, y) = (0.5 * (1.0 - xi * xi), 0.5 * (1.0 - eta * eta));
+    [x * (1.0 - eta), y * (1.0 + xi), x * (1.0 + eta), y * (1.0 - xi)]
 }
