@@ -9,8 +9,9 @@ use crate::table::{Table, order};
 
 const SHAPES: [Shape; 3] = [Shape::Quad, Shape::Triangle, Shape::OtherTriangle];
 
-/// Scordelis–Lo roof: R = 25, L = 50, t = 0.25, 80°, E = 4.32e8, ν = 0, 90 per area; the free edge sinks by 0.3024.
-fn roof(shape: Shape, n: usize) -> f64 {
+/// Scordelis–Lo roof: R = 25, L = 50, t = 0.25, 80°, E = 4.32e8, ν = 0, 90 per area; the free edge sinks by 0.3024 (deep
+/// shell theory: 0.3006).
+fn roof(shape: Shape, n: usize, moments: bool) -> f64 {
     let plate = Plate { modulus: 4.32e8, poisson: 0.0, thickness: 0.25, mass: 90.0 };
     let angle = 40.0_f64.to_radians();
     // x along the axis from the middle to the diaphragm, crown at y = 0.
@@ -21,6 +22,9 @@ fn roof(shape: Shape, n: usize) -> f64 {
     s.hold(|p| p[0] == 0.0, &[X, RY, RZ]);
     s.hold(|p| p[1] == 0.0, &[Y, RX, RZ]);
     s.push_like_mass(Z, 1.0);
+    if !moments {
+        s.forces_only();
+    }
     s.solve()[n * (n + 1)][Z]
 }
 
@@ -28,15 +32,17 @@ fn roof(shape: Shape, n: usize) -> f64 {
 fn scordelis_lo_roof() {
     let mut table = Table::new("Scordelis–Lo roof", "MacNeal & Harder 1985, table 5; a quarter");
     for shape in SHAPES {
-        let computed = [4, 8, 16, 32].map(|n| roof(shape, n));
-        for (n, computed) in [4, 8, 16, 32].into_iter().zip(computed) {
+        for n in [4, 8, 16, 32] {
             // MacNeal & Harder print 4 to 8 % for 4 × 4 and 1 to 2 % for 8 × 8 of such elements.
-            table.row(format!("{shape:?}, {n} × {n}"), 0.3024, computed, if n == 4 { 0.09 } else { 0.02 });
+            let tolerance = if n == 4 { 0.05 } else { 0.02 };
+            table.row(format!("{shape:?}, {n} × {n}"), 0.3024, roof(shape, n, true), tolerance);
         }
-        // The other cut converges from both sides: no order to be read from four meshes.
+        // The load's moments make errors of either sign cancel so early that no order can be read; with forces at the
+        // nodes only, and but for the triangles of the first cut, it can.
         if shape != Shape::Triangle {
-            let order = order(computed[1] - computed[2], computed[2] - computed[3], 2.0);
-            table.row(format!("{shape:?}, order of convergence"), 2.0, order, 0.3);
+            let [coarse, middle, fine] = [8, 16, 32].map(|n| roof(shape, n, false));
+            let order = order(coarse - middle, middle - fine, 2.0);
+            table.row(format!("{shape:?}, nodal forces, order of convergence"), 2.0, order, 0.25);
         }
     }
     table.finish();

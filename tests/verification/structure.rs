@@ -112,6 +112,11 @@ impl Structure {
         }
     }
 
+    /// Takes the moments out of the load.
+    pub fn forces_only(&mut self) {
+        self.load.iter_mut().for_each(|load| load[RX..].fill(0.0));
+    }
+
     /// Number of each free motion.
     fn numbering(&self) -> (Vec<[Option<u32>; 6]>, usize) {
         let mut n = 0;
