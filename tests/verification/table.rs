@@ -50,8 +50,8 @@ impl Table {
     /// An error is beyond its tolerance.
     pub fn finish(self) {
         println!("{self}");
-        let wrong: Vec<&str> =
-            self.rows.iter().filter(|r| !(r.error().abs() <= r.tolerance)).map(|r| r.case.as_str()).collect();
+        let within = |r: &Row| r.error().abs() <= r.tolerance;
+        let wrong: Vec<&str> = self.rows.iter().filter(|r| !within(r)).map(|r| r.case.as_str()).collect();
         assert!(wrong.is_empty(), "{}: beyond tolerance: {wrong:?}", self.title);
     }
 }

@@ -153,11 +153,11 @@ pub(super) fn interpolate<const N: usize>(
     let (direction, arm) = (Vector3::from(direction), Vector3::from(arm));
     let way = |k: usize| 0.125 * p[k] * (nodes[(k + 1) % N] - nodes[k]);
     let mut row = Weights::with_capacity(6 * N);
-    for i in 0..N {
+    for (i, n) in n.iter().enumerate() {
         // direction · (r × arm + g × r) = r · (arm × direction + direction × g).
         let g = way((i + N - 1) % N) - way(i);
-        let about = n[i] * arm.cross(&direction) + direction.cross(&g);
-        let all = [n[i] * direction.x, n[i] * direction.y, n[i] * direction.z, about.x, about.y, about.z];
+        let about = *n * arm.cross(&direction) + direction.cross(&g);
+        let all = [n * direction.x, n * direction.y, n * direction.z, about.x, about.y, about.z];
         row.extend(all.into_iter().enumerate().filter(|(_, w)| *w != 0.0).map(|(freedom, w)| (6 * i + freedom, w)));
     }
     row

@@ -5,7 +5,7 @@ use nalgebra::Vector3;
 use super::flat::{Flat, Products, interpolate};
 use super::membrane4::area;
 use super::{Plate, bending, membrane3};
-use crate::error::ElementError;
+use crate::error::{ElementError, exceeds};
 use crate::matrices::{Matrices, Weights};
 
 /// A triangle.
@@ -32,7 +32,7 @@ impl Shell3 {
         let normal = (nodes[1] - nodes[0]).cross(&(nodes[2] - nodes[0]));
         let longest = (0..3).map(|i| (nodes[(i + 1) % 3] - nodes[i]).norm_squared()).fold(0.0, f64::max);
         let ratio = normal.norm() / longest;
-        if !(ratio > 1e-9) {
+        if !exceeds(ratio, 1e-9) {
             return Err(ElementError::NoArea);
         }
         if ratio < LEAST_HEIGHT {

@@ -5,7 +5,7 @@ use nalgebra::Vector3;
 use super::flat::{Flat, Products, interpolate};
 use super::membrane4::{GAUSS, area, bilinear, shapes};
 use super::{Plate, bending, membrane4};
-use crate::error::ElementError;
+use crate::error::{ElementError, exceeds};
 use crate::matrices::{Matrices, Weights};
 
 /// A quadrilateral; four nodes in order around it, nearly in one plane.
@@ -34,11 +34,11 @@ impl Shell4 {
         let (first, second) = (nodes[2] - nodes[0], nodes[3] - nodes[1]);
         let normal = first.cross(&second);
         let size = first.norm_squared() + second.norm_squared();
-        if !(normal.norm() > 1e-9 * size) {
+        if !exceeds(normal.norm(), 1e-9 * size) {
             return Err(ElementError::NoArea);
         }
         let (edge, n) = (nodes[1] - nodes[0], normal.normalize());
-        if !((edge - n * n.dot(&edge)).norm_squared() > 1e-12 * size) {
+        if !exceeds((edge - n * n.dot(&edge)).norm_squared(), 1e-12 * size) {
             return Err(ElementError::NoArea);
         }
         let flat = Flat::new(&nodes, normal);
@@ -47,7 +47,7 @@ impl Shell4 {
             let (before, here, after) = (at(corner + 3), at(corner), at(corner + 1));
             let (a, b) = ([after[0] - here[0], after[1] - here[1]], [before[0] - here[0], before[1] - here[1]]);
             let (sine, cosine) = (a[0] * b[1] - a[1] * b[0], a[0] * b[0] + a[1] * b[1]);
-            if !(sine > LEAST_SINE * sine.hypot(cosine)) {
+            if !exceeds(sine, LEAST_SINE * sine.hypot(cosine)) {
                 return Err(ElementError::Corner { corner: corner + 1, angle: sine.atan2(cosine).to_degrees() });
             }
         }

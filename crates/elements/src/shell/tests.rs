@@ -188,3 +188,20 @@ fn what_is_no_shell_is_refused() {
     let thin = Plate { thickness: 0.0, ..PLATE };
     assert!(matches!(Shell3::new(TRIANGLE, thin), Err(ElementError::Property { property: "thickness", .. })));
 }
+
+/// Shapes at the edge of what is accepted: long, skew, one corner nearly straight.
+#[test]
+fn poor_shapes_still_give_sound_matrices() {
+    let long = [[0.0, 0.0, 0.0], [1000.0, 0.0, 0.0], [1000.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
+    let skew = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [11.0, 0.5, 0.0], [10.0, 0.5, 0.0]];
+    let blunt = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.51, 0.51, 0.0], [0.0, 1.0, 0.0]];
+    for nodes in [long, skew, blunt] {
+        let matrices = Shell4::new(nodes, PLATE).unwrap().matrices();
+        let k = square(&matrices.k);
+        assert!(k.iter().all(|k| k.is_finite()));
+        for motion in rigid(&nodes) {
+            assert!((&k * &motion).amax() < 1e-9 * k.amax() * motion.amax());
+        }
+        assert!(k.clone().symmetric_eigenvalues().min() > -1e-10 * k.amax());
+    }
+}
