@@ -43,7 +43,7 @@ fn along_x(n: usize, section: BeamSection, hold: &[usize], ends: &[usize]) -> St
 }
 
 /// Simply supported, both planes: ω = (jπ/l)² √(EI/m); errors fall with h⁴ (Strang & Fix, An Analysis of the Finite Element
-/// Method, 1973, section 6.3).
+/// Method, 1973).
 #[test]
 fn euler_bernoulli_frequencies() {
     let mut table = Table::new("Euler–Bernoulli beam, simply supported", "closed form; rad/s");
@@ -144,8 +144,7 @@ fn timoshenko_cantilever() {
     table.finish();
 }
 
-/// Chord stiffness of a level cable between supports a span L apart (elastic catenary, Irvine, Cable Structures, 1981,
-/// section 1.4), S₀ its length without stress, w its weight:
+/// Chord stiffness of a level cable between supports a span L apart (elastic catenary, Irvine, Cable Structures, 1981), S₀ its length without stress, w its weight:
 ///
 /// ```text
 /// L(H) = H S₀/(EA) + (2H/w) asinh(w S₀/(2H)),   k = 1/(dL/dH)

@@ -25,7 +25,7 @@ fn supported(shape: Shape, plate: Plate, n: usize, b: f64) -> Structure {
 /// Simply supported 1 × 1.5: ω = π² (i²/a² + j²/b²) √(D/(ρt)); the error falls with h².
 #[test]
 fn supported_plate_frequencies() {
-    let mut table = Table::new("simply supported plate 1 × 1.5, 16 × 16", "closed form (Leissa 1969, eq. 4.20); rad/s");
+    let mut table = Table::new("simply supported plate 1 × 1.5, 16 × 16", "closed form (Leissa 1973); rad/s");
     let wave = |i: f64, j: f64| PI * PI * (i * i + j * j / 2.25) * (rigidity(&THIN) / THIN.mass).sqrt();
     let mut exact = [wave(1.0, 1.0), wave(1.0, 2.0), wave(2.0, 1.0), wave(1.0, 3.0), wave(2.0, 2.0)];
     exact.sort_by(f64::total_cmp);
@@ -42,7 +42,7 @@ fn supported_plate_frequencies() {
 }
 
 /// Clamped along one edge: ω a² √(ρt/D) = 3.4917, 8.5246, 21.429, 27.331, 31.111 (Leissa, J. Sound Vib. 31, 1973, 257–293,
-/// table C13, upper bounds by Ritz).
+/// Ritz's upper bounds; also Barton 1951).
 #[test]
 fn cantilever_plate_frequencies() {
     let mut table = Table::new("square cantilever plate, 16 × 16", "Leissa 1973; ω a² √(ρt/D)");

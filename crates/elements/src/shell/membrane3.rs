@@ -1,5 +1,5 @@
 //! Triangular membrane with drilling rotations: the optimal triangle (Felippa, Comput. Methods Appl. Mech. Eng. 192, 2003,
-//! 2125–2168, sections 5 and 6), exact for in-plane bending of rectangles split into triangles, of any aspect ratio.
+//! 2125–2168), exact for in-plane bending of rectangles split into triangles, of any aspect ratio.
 //!
 //! ```text
 //! K = L E Lᵀ t/A + ¾ β₀ Θᵀ K_θ Θ                    basic part: constant stress; higher part: deviation from it
