@@ -4,7 +4,7 @@ use ttb_elements::Plate;
 
 use crate::structure::{ALL, Shape, Structure};
 
-/// MacNeal & Harder (Finite Elem. Anal. Des. 1, 1985, 3–20), figure 1: 0.24 × 0.12, t = 0.001, E = 1e6, ν = 0.25.
+/// MacNeal & Harder (Finite Elem. Anal. Des. 1, 1985, 3–20), patch of plates: 0.24 × 0.12, t = 0.001, E = 1e6, ν = 0.25.
 const PLATE: Plate = Plate { modulus: 1e6, poisson: 0.25, thickness: 1e-3, mass: 0.0 };
 const SHAPES: [Shape; 3] = [Shape::Quad, Shape::Triangle, Shape::OtherTriangle];
 
@@ -27,7 +27,7 @@ fn error(mut s: Structure, field: impl Fn(f64, f64) -> [f64; 6]) -> f64 {
     let motion = s.solve();
     let exact: Vec<[f64; 6]> = s.nodes.iter().map(|p| field(p[0], p[1])).collect();
     let worst = |kind: std::ops::Range<usize>| {
-        let scale = exact.iter().flat_map(|m| m[kind.clone()].to_vec()).fold(1e-4_f64, |a, b: f64| a.max(b.abs()));
+        let scale = exact.iter().flat_map(|m| m[kind.clone()].to_vec()).fold(1e-4, |a: f64, b| a.max(b.abs()));
         let pairs = motion.iter().zip(&exact).flat_map(|(a, b)| kind.clone().map(|i| (a[i] - b[i]).abs()));
         pairs.fold(0.0, f64::max) / scale
     };

@@ -26,7 +26,7 @@ fn describe(e: &Equations, modes: &Modes) -> Vec<(f64, [f64; 4])> {
 
 /// Lowest modes as (Hz, largest motions), printed.
 fn modes(e: &Equations, count: usize) -> Vec<(f64, [f64; 4])> {
-    let modes = lowest(&e.pencil, &e.pencil.factor(1.0, 0.0).unwrap(), count).unwrap();
+    let modes = lowest(&e.pencil, &e.pencil.factor(1.0, 0.0, 0.0).unwrap(), count).unwrap();
     let found = describe(e, &modes);
     for (hz, [x, y, z, webs]) in &found {
         println!("{hz:.3} Hz: x {x:.2} y {y:.2} z {z:.2} webs {webs:.2}");
@@ -72,7 +72,7 @@ fn the_deflection_under_the_train_hardly_depends_on_the_mesh() {
             }
         }
         let mut scratch = u.clone();
-        e.pencil.factor(1.0, 0.0).unwrap().solve_in_place(&mut u, &mut scratch);
+        e.pencil.factor(1.0, 0.0, 0.0).unwrap().solve_in_place(&mut u, &mut scratch);
         e.motion(e.node([88.0, 0.0, 0.0]), &u)[2] * 1e3
     };
     let (coarse, fine) = (deflection(12_000), deflection(30_000));
