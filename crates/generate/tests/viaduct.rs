@@ -49,7 +49,7 @@ fn a_span_of_other_dimensions_is_sound_too() {
     assert!(simple_span(1.0, 2.0, 0.1, 20_000).unwrap_err().0.len() == 4);
 }
 
-/// Without the Rayleigh integral for shear the first frequency is π/2 √(EI/(m L⁴)); about 5 Hz is usual for 32 m.
+/// A slender beam: π/2 √(EI/(m L⁴)); about 5 Hz is usual for 32 m.
 #[test]
 fn the_span_of_32_m_has_a_frequency_of_about_5_hz() {
     let trough = Viaduct::default().trough();
