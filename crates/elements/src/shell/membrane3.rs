@@ -66,10 +66,10 @@ pub(super) fn stiffness(p: &[[f64; 2]; 3], plate: &Plate) -> Matrix9 {
     // Q₁ as listed; Q₂ and Q₃ are it with corners and edges turned on by one and two.
     let q = [0, 1, 2].map(|turn| {
         let mut q = [[0.0; 3]; 3];
-        for edge in 0..3 {
-            for corner in 0..3 {
+        for (edge, row) in BETA.iter().enumerate() {
+            for (corner, beta) in row.iter().enumerate() {
                 let (e, c) = ((edge + turn) % 3, (corner + turn) % 3);
-                q[e][c] = double / 3.0 / squares[e] * BETA[edge][corner];
+                q[e][c] = double / 3.0 / squares[e] * beta;
             }
         }
         q
