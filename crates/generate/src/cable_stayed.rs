@@ -7,7 +7,8 @@
 //! ```
 //!
 //! Bearings stand under the webs and hold vertically; a guide on the axis holds across. The tower carries the main girder
-//! rigidly and so holds it along; the girders before and after are held along on their abutments.
+//! rigidly and so holds it along; the girders before and after are held along on their abutments,
+//! at the floor: at the bottom of a cross-beam this would bend over its weak axis.
 
 use ttb_scenario::types::{Bearings, DeckCarrier, DeckLine, Freedom, Model};
 
