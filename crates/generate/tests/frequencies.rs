@@ -100,7 +100,7 @@ fn a_span_has_nearly_the_frequency_of_its_beam() {
 fn account(dofs: usize) -> f64 {
     let model = cable_stayed(&CableStayed { dofs, ..CableStayed::default() }).unwrap();
     let pencil = assembled::assemble(&model, &[16.0, 88.0], &[]).unwrap().equations.finish().unwrap();
-    let factor = pencil.factor(1.0, 0.0).unwrap();
+    let factor = pencil.factor(1.0, 0.0, 0.0).unwrap();
     let mut scratch = vec![0.0; pencil.ndof()];
     let mut solve = |x: &mut [f64]| factor.solve_in_place(x, &mut scratch);
     let found = assembled::self_check(&model, assembled::Statics::Solved(&mut solve)).unwrap();
