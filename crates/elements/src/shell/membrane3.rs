@@ -36,7 +36,7 @@ pub(super) fn stiffness(p: &[[f64; 2]; 3], plate: &Plate) -> Matrix9 {
         let rotation = [
             y(j, k) * (y(i, k) - y(j, i)),
             x(k, j) * (x(j, i) - x(i, k)),
-            2.0 * (x(j, i) * y(i, k) - x(i, k) * y(j, i)),
+            2.0 * (x(k, i) * y(i, k) - x(i, j) * y(j, i)),
         ];
         lumping[3 * corner + 2] = rotation.map(|r| ALPHA / 12.0 * r);
     }

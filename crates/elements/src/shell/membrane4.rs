@@ -7,14 +7,24 @@
 //! H = ∫ Pᵀ C P t dA,   G q = ∮ (n·P)ᵀ u t ds,   K = Gᵀ H⁻¹ G
 //! ```
 //!
-//! The polynomials are complete to the second degree (11 of them), so that the result does not depend on the axes. Only
-//! differences of θ enter: equal rotations at all corners would be free of energy. They are tied to the mean rotation of
-//! the continuum (Hughes & Brezzi, Comput. Methods Appl. Mech. Eng. 72, 1989, 105–121), which keeps constant strain
-//! and rigid motion exact:
+//! The polynomials are complete to the second degree (11 of them), so that the result does not depend on the axes. All 11
+//! at full weight are too stiff, the 7 up to the first degree alone leave two motions of the drilling rotations free of
+//! energy. So the energy is split by H = L Lᵀ, which makes the second degree orthogonal to the rest, and that part counts
+//! with the share ε only; it vanishes for every field the first degree can represent:
+//!
+//! ```text
+//! F = L⁻¹ G,   K = Σ w_i F_iᵀ F_i,   w = 1 for the first 7, ε for the others
+//! ```
+//!
+//! Only differences of θ enter: equal rotations at all corners would be free of energy. They are tied to the mean
+//! rotation of the continuum (Hughes & Brezzi, Comput. Methods Appl. Mech. Eng. 72, 1989, 105–121), which keeps constant
+//! strain and rigid motion exact:
 //!
 //! ```text
 //! K += γ G t A dᵀd,   d q = (1/A) [∫ Σ N_i θ_i dA − ½ ∮ u·ds]
 //! ```
+//!
+//! ε and γ are small enough not to be felt in slender in-plane bending and large enough to keep K well-conditioned.
 
 use super::Plate;
 
@@ -23,8 +33,12 @@ pub(super) type Matrix12 = [[f64; 12]; 12];
 
 /// Number of stress polynomials.
 const STRESSES: usize = 11;
+/// Those up to the first degree.
+const LINEAR: usize = 7;
+/// ε.
+const QUADRATIC: f64 = 0.05;
 /// γ.
-const DRILLING: f64 = 1.0;
+const DRILLING: f64 = 0.05;
 
 /// Abscissae on [−1, 1] and weights of the three-point Gauss rule: exact to degree 5, H needs that and G needs 4.
 const GAUSS: [(f64, f64); 3] =
@@ -114,7 +128,9 @@ pub(super) fn stiffness(corners: &[[f64; 2]; 4], plate: &Plate) -> Matrix12 {
             k.iter_mut().zip(row).for_each(|(k, b)| *k += factor * a * b);
         }
     };
-    g.iter().for_each(|row| add(&mut k, row, plate.thickness));
+    for (i, row) in g.iter().enumerate() {
+        add(&mut k, row, plate.thickness * if i < LINEAR { 1.0 } else { QUADRATIC });
+    }
     add(&mut k, &drilling, DRILLING * plate.shear_modulus() * plate.thickness);
     // Back from lengths in units of `size`: forces stay, moments and rotations scale.
     for (i, row) in k.iter_mut().enumerate() {

@@ -1,0 +1,159 @@
+//! Beams and plates of MacNeal & Harder, "A proposed standard set of problems to test finite element accuracy", Finite
+//! Elem. Anal. Des. 1, 1985, 3–20: figures 2 to 5, tables 1 to 4.
+
+use ttb_elements::Plate;
+
+use crate::structure::*;
+use crate::table::Table;
+
+#[derive(Clone, Copy, Debug)]
+enum Mesh {
+    Regular,
+    Trapezoid,
+    Parallelogram,
+}
+
+/// Straight cantilever 6 × 0.2 × 0.1 in the plane x–y, six elements long.
+fn straight(shape: Shape, mesh: Mesh, cells: [usize; 2]) -> Structure {
+    let plate = Plate { modulus: 1e7, poisson: 0.3, thickness: 0.1, mass: 0.0 };
+    let n = cells[0] as f64;
+    let mut s = Structure::surface(cells, shape, plate, |u, v| {
+        let i = (u * n).round();
+        let inner = i > 0.0 && i < n;
+        let slant = match mesh {
+            Mesh::Regular => 0.0,
+            Mesh::Trapezoid => 0.1 * (1.0 - 2.0 * v) * if i as usize % 2 == 1 { 1.0 } else { -1.0 },
+            Mesh::Parallelogram => -0.1 * (1.0 - 2.0 * v),
+        };
+        [6.0 * u + if inner { slant * 6.0 / n } else { 0.0 }, 0.2 * v, 0.0]
+    });
+    s.hold(|p| p[0] == 0.0, &ALL);
+    s
+}
+
+fn tip(s: &Structure, motion: usize) -> f64 {
+    let tip = s.nodes_where(|p| (p[0] - 6.0).abs() < 1e-9);
+    let motion_of = s.solve();
+    tip.iter().map(|i| motion_of[*i][motion]).sum::<f64>() / tip.len() as f64
+}
+
+#[test]
+fn straight_cantilever() {
+    let mut table = Table::new("straight cantilever", "MacNeal & Harder 1985");
+    for shape in [Shape::Quad, Shape::Triangle, Shape::OtherTriangle] {
+        for mesh in [Mesh::Regular, Mesh::Trapezoid, Mesh::Parallelogram] {
+            for (motion, expected) in [(X, 3e-5), (Y, 0.1081), (Z, 0.4321)] {
+                let mut s = straight(shape, mesh, [6, 1]);
+                for node in s.nodes_where(|p| (p[0] - 6.0).abs() < 1e-9) {
+                    s.push(node, motion, 0.5);
+                }
+                table.row(format!("{shape:?} {mesh:?} {motion}"), expected, tip(&s, motion), 0.03);
+            }
+            let mut s = straight(shape, mesh, [6, 1]);
+            for node in s.nodes_where(|p| (p[0] - 6.0).abs() < 1e-9) {
+                s.push(node, Z, if s.nodes[node][1] > 0.1 { 5.0 } else { -5.0 });
+            }
+            table.row(format!("{shape:?} {mesh:?} twist"), 0.03208, tip(&s, RX), 0.05);
+        }
+    }
+    table.finish();
+}
+
+/// Quarter of a ring, radii 4.12 and 4.32, thickness 0.1, six elements.
+#[test]
+fn curved_beam() {
+    let mut table = Table::new("curved beam", "MacNeal & Harder 1985");
+    let plate = Plate { modulus: 1e7, poisson: 0.25, thickness: 0.1, mass: 0.0 };
+    for shape in [Shape::Quad, Shape::Triangle, Shape::OtherTriangle] {
+        for (motion, expected) in [(X, 0.08734), (Z, 0.5022)] {
+            let mut s = Structure::surface([6, 1], shape, plate, |u, v| {
+                let (angle, r) = (u * std::f64::consts::FRAC_PI_2, 4.12 + 0.2 * v);
+                [r * angle.sin(), r * angle.cos(), 0.0]
+            });
+            s.hold(|p| p[0] == 0.0, &ALL);
+            let tip = s.nodes_where(|p| p[1].abs() < 1e-9);
+            tip.iter().for_each(|&node| s.push(node, motion, 0.5));
+            let moved = s.solve();
+            let mean = 0.5 * tip.iter().map(|i| moved[*i][motion]).sum::<f64>();
+            table.row(format!("{shape:?} {motion}"), expected, mean, 0.05);
+        }
+    }
+    table.finish();
+}
+
+/// Length 12, width 1.1, turned by 90°, 12 × 2 elements; t = 0.32 and (Simo, Fox & Rifai, Comput. Methods Appl. Mech. Eng.
+/// 73, 1989, 53–92) 0.05.
+#[test]
+fn twisted_beam() {
+    let mut table = Table::new("twisted beam", "MacNeal & Harder 1985; Simo, Fox & Rifai 1989");
+    for shape in [Shape::Quad, Shape::Triangle, Shape::OtherTriangle] {
+        for (thickness, values) in [(0.32, [5.424e-3, 1.754e-3]), (0.05, [1.390, 0.3431])] {
+            for (motion, expected) in [(Z, values[0]), (Y, values[1])] {
+                for fine in [1, 4] {
+                    let plate = Plate { modulus: 29e6, poisson: 0.22, thickness, mass: 0.0 };
+                    // Flat at the root in the plane x–y, upright at the tip: there z is in the plane.
+                    let mut s = Structure::surface([12 * fine, 2 * fine], shape, plate, |u, v| {
+                        let (angle, r) = (u * std::f64::consts::FRAC_PI_2, 1.1 * (v - 0.5));
+                        [12.0 * u, r * angle.cos(), r * angle.sin()]
+                    });
+                    s.hold(|p| p[0] == 0.0, &ALL);
+                    let tip = s.nodes_where(|p| p[0] == 12.0);
+                    let (last, middle) = (tip.len() - 1, tip[tip.len() / 2]);
+                    for (i, &node) in tip.iter().enumerate() {
+                        let share = if i == 0 || i == last { 0.5 } else { 1.0 };
+                        s.push(node, motion, share / last as f64);
+                    }
+                    let moved = s.solve()[middle][motion];
+                    table.row(format!("{shape:?} t = {thickness} {motion} ×{fine}"), expected, moved, 0.05);
+                }
+            }
+        }
+    }
+    table.finish();
+}
+
+/// Quarter of a plate a = 2, b = 2 or 10, t = 1e-4, q = 1e-4 or P = 4e-4; the mesh is N × N.
+#[test]
+fn rectangular_plate() {
+    let mut table = Table::new("rectangular plate", "MacNeal & Harder 1985, table 4");
+    let plate = Plate { modulus: 1.7472e7, poisson: 0.3, thickness: 1e-4, mass: 1.0 };
+    for shape in [Shape::Quad, Shape::Triangle, Shape::OtherTriangle] {
+        let cases = [
+            (false, false, 1.0, 4.062),
+            (false, false, 5.0, 12.97),
+            (false, true, 1.0, 11.60),
+            (false, true, 5.0, 16.96),
+            (true, false, 1.0, 1.26),
+            (true, false, 5.0, 2.56),
+            (true, true, 1.0, 5.60),
+            (true, true, 5.0, 7.23),
+        ];
+        for (clamped, point, aspect, expected) in cases {
+            for n in [4, 8, 16] {
+                // Centre at the origin.
+                let mut s = Structure::surface([n, n], shape, plate, |u, v| [u, aspect * v, 0.0]);
+                s.hold(|_| true, &[X, Y, RZ]);
+                s.hold(|p| p[0] == 0.0, &[RY]);
+                s.hold(|p| p[1] == 0.0, &[RX]);
+                s.hold(|p| p[0] == 1.0, &[Z, RX]);
+                s.hold(|p| p[1] == aspect, &[Z, RY]);
+                if clamped {
+                    s.hold(|p| p[0] == 1.0 || p[1] == aspect, &[RX, RY]);
+                }
+                if point {
+                    s.push(0, Z, 1e-4)
+                } else {
+                    s.push_like_mass(Z, 1e-4)
+                }
+                let tolerance = if n == 4 { 0.1 } else { 0.03 };
+                let name = format!(
+                    "{shape:?} {} {} b/a = {aspect} N = {n}",
+                    if clamped { "clamped" } else { "supported" },
+                    if point { "P" } else { "q" }
+                );
+                table.row(name, expected, s.solve()[0][Z], tolerance);
+            }
+        }
+    }
+    table.finish();
+}
