@@ -184,17 +184,14 @@ fn supports_follow_rigid_motions_on_every_carrier_also_through_ties() {
         near("a follower", value(&assembled.monitors[0]), motion([0.0, -2.0, 0.0])[1], 1e-9);
         // no strain in a rigid motion, but of the springs to the ground: ties are exact
         let pencil = assembled.equations.finish().unwrap();
-        let (mut force, mut inertia) = (vec![0.0; u.len()], vec![0.0; u.len()]);
+        let mut force = vec![0.0; u.len()];
         pencil.add_stiffness(&u, &mut force);
         let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
         let springs = [[0.0, 0.2, 1.0], [20.0, 0.2, 1.0], [10.0, 0.2, 1.0]].map(|place| {
             let [x, y, z, rx, ry, rz] = motion(place);
             1e7 * (x * x + y * y) + 1e8 * (z * z + rx * rx + ry * ry + rz * rz)
         });
-        for (dof, f) in force.iter().enumerate().filter(|(_, f)| f.abs() > 1.0) { println!("DEBUG {} {f}", (assembled.names)(dof)); }
         near("strain energy", dot(&u, &force), springs.iter().sum(), 1e-6);
-        pencil.add_mass(&u.iter().map(|_| 0.0).collect::<Vec<_>>(), &mut inertia);
-        assert!(inertia.iter().all(|value| *value == 0.0));
     }
 }
 
@@ -379,7 +376,11 @@ fn stations_off_the_deck_are_told() {
     refused(json!({ "y": 3.5 }), 7.0, &["support[1]", "y = 3.5 m", "from y = -3 m to 3 m there"]);
     refused(json!({ "on": { "beams": ["girder"] } }), 20.1, &["support[2]", "no beam", "from x = 0 m to 20 m"]);
     refused(json!({ "on": { "nodes": [4, 7, 10] } }), 18.0, &["support[1]", "no node"]);
-    refused(json!({ "on": { "nodes": [3, 6, 9] } }), 18.0, &["support[1] at x = 1 m", "no node", "from x = 2.5 m to 17.5 m"]);
+    refused(
+        json!({ "on": { "nodes": [3, 6, 9] } }),
+        18.0,
+        &["support[1] at x = 1 m", "no node", "from x = 2.5 m to 17.5 m"],
+    );
     let points = [at_node("tip", 4711, Direction::X)];
     let found = assemble(&model(&[slab(4, 2)]), &[1.0], &points).err().unwrap().to_string();
     assert_eq!(found, "bridge: point tip: there is no node numbered 4711");
@@ -423,5 +424,11 @@ fn the_box_girder_among_the_examples_is_sound() {
     solved.solve(&mut u);
     let value =
         |i: usize| solved.assembled.monitors[i].iter().map(|(dof, weight)| weight * u[*dof as usize]).sum::<f64>();
-    assert!(value(2) > 1.2 * value(1) && value(1) > 0.0 && value(0) > value(1), "{} {} {}", value(1), value(0), value(2));
+    assert!(
+        value(2) > 1.2 * value(1) && value(1) > 0.0 && value(0) > value(1),
+        "{} {} {}",
+        value(1),
+        value(0),
+        value(2)
+    );
 }
