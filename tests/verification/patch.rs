@@ -4,7 +4,7 @@ use ttb_elements::Plate;
 
 use crate::structure::{ALL, Shape, Structure};
 
-/// MacNeal & Harder (Finite Elem. Anal. Des. 1, 1985, 3–20), figure 1: 0.24 × 0.12, t = 0.001, E = 1e6, ν = 0.25.
+/// MacNeal & Harder (Finite Elem. Anal. Des. 1, 1985, 3–20), patch of plates: 0.24 × 0.12, t = 0.001, E = 1e6, ν = 0.25.
 const PLATE: Plate = Plate { modulus: 1e6, poisson: 0.25, thickness: 1e-3, mass: 0.0 };
 const SHAPES: [Shape; 3] = [Shape::Quad, Shape::Triangle, Shape::OtherTriangle];
 

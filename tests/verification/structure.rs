@@ -105,11 +105,16 @@ impl Structure {
     /// Adds forces mass × value: a load spread like the mass.
     pub fn push_like_mass(&mut self, motion: usize, value: f64) {
         for (nodes, matrices) in &self.elements {
-            for (row, m) in matrices.rows_m().enumerate().filter(|(row, _)| row % 6 < 3) {
+            for (row, m) in matrices.rows_m().enumerate() {
                 let sum: f64 = m.iter().skip(motion).step_by(6).sum();
                 self.load[nodes[row / 6]][row % 6] += value * sum;
             }
         }
+    }
+
+    /// Takes the moments out of the load.
+    pub fn forces_only(&mut self) {
+        self.load.iter_mut().for_each(|load| load[RX..].fill(0.0));
     }
 
     /// Number of each free motion.

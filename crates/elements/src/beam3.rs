@@ -16,7 +16,7 @@
 use nalgebra::{Matrix3, SMatrix, SVector, Vector3};
 use ttb_dynamics::beam::Beam;
 
-use crate::error::{ElementError, not_negative, positive};
+use crate::error::{ElementError, exceeds, not_negative, positive};
 use crate::matrices::{Matrices, Weights};
 
 type Matrix12 = SMatrix<f64, 12, 12>;
@@ -215,12 +215,12 @@ fn axes(begin: Vector3<f64>, end: Vector3<f64>, orientation: [f64; 3]) -> Result
     let (way, vector) = (end - begin, Vector3::from(orientation));
     let (length, size) = (way.norm(), vector.norm());
     // Shorter than rounding of the coordinates leaves meaningful.
-    if !(length > 1e-9 * (1.0 + begin.amax())) {
+    if !exceeds(length, 1e-9 * (1.0 + begin.amax())) {
         return Err(ElementError::NoLength);
     }
     let first = way / length;
     let third = first.cross(&vector);
-    if !(third.norm() > 1e-6 * size) {
+    if !exceeds(third.norm(), 1e-6 * size) {
         return Err(ElementError::ParallelOrientation);
     }
     let third = third.normalize();

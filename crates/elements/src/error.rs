@@ -48,6 +48,11 @@ pub enum ElementError {
     },
 }
 
+/// `value` is above `least`; NaN is not.
+pub(crate) fn exceeds(value: f64, least: f64) -> bool {
+    value > least
+}
+
 /// `value` is positive and finite.
 pub(crate) fn positive(property: &'static str, value: f64) -> Result<(), ElementError> {
     if value > 0.0 && value.is_finite() { Ok(()) } else { Err(ElementError::Property { property, value }) }

@@ -3,7 +3,7 @@
 use nalgebra::{Matrix3, Vector3};
 use ttb_dynamics::frame::ernst_modulus;
 
-use crate::error::{ElementError, not_negative, positive};
+use crate::error::{ElementError, exceeds, not_negative, positive};
 use crate::matrices::Matrices;
 
 /// A straight truss.
@@ -25,7 +25,7 @@ impl Truss3 {
         not_negative("mass", mass)?;
         let (begin, end) = (Vector3::from(ends[0]), Vector3::from(ends[1]));
         let length = (end - begin).norm();
-        if !(length > 1e-9 * (1.0 + begin.amax())) {
+        if !exceeds(length, 1e-9 * (1.0 + begin.amax())) {
             return Err(ElementError::NoLength);
         }
         Ok(Self { direction: (end - begin) / length, length, axial_stiffness, mass })

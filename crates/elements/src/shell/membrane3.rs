@@ -1,5 +1,5 @@
 //! Triangular membrane with drilling rotations: the optimal triangle (Felippa, Comput. Methods Appl. Mech. Eng. 192, 2003,
-//! 2125–2168, sections 5 and 6), exact for in-plane bending of rectangles split into triangles, of any aspect ratio.
+//! 2125–2168), exact for in-plane bending of rectangles split into triangles, of any aspect ratio.
 //!
 //! ```text
 //! K = L E Lᵀ t/A + ¾ β₀ Θᵀ K_θ Θ                    basic part: constant stress; higher part: deviation from it
@@ -66,10 +66,10 @@ pub(super) fn stiffness(p: &[[f64; 2]; 3], plate: &Plate) -> Matrix9 {
     // Q₁ as listed; Q₂ and Q₃ are it with corners and edges turned on by one and two.
     let q = [0, 1, 2].map(|turn| {
         let mut q = [[0.0; 3]; 3];
-        for edge in 0..3 {
-            for corner in 0..3 {
+        for (edge, row) in BETA.iter().enumerate() {
+            for (corner, beta) in row.iter().enumerate() {
                 let (e, c) = ((edge + turn) % 3, (corner + turn) % 3);
-                q[e][c] = double / 3.0 / squares[e] * BETA[edge][corner];
+                q[e][c] = double / 3.0 / squares[e] * beta;
             }
         }
         q

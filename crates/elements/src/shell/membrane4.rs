@@ -41,7 +41,7 @@ const QUADRATIC: f64 = 0.05;
 const DRILLING: f64 = 0.05;
 
 /// Abscissae on [−1, 1] and weights of the three-point Gauss rule: exact to degree 5, H needs that and G needs 4.
-const GAUSS: [(f64, f64); 3] =
+pub(super) const GAUSS: [(f64, f64); 3] =
     [(-0.774_596_669_241_483_4, 5.0 / 9.0), (0.0, 8.0 / 9.0), (0.774_596_669_241_483_4, 5.0 / 9.0)];
 
 /// P: [σ_x, σ_y, τ] of each polynomial.

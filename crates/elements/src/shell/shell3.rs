@@ -2,10 +2,10 @@
 
 use nalgebra::Vector3;
 
-use super::flat::{Flat, interpolate};
+use super::flat::{Flat, Products, interpolate};
 use super::membrane4::area;
 use super::{Plate, bending, membrane3};
-use crate::error::ElementError;
+use crate::error::{ElementError, exceeds};
 use crate::matrices::{Matrices, Weights};
 
 /// A triangle.
@@ -32,7 +32,7 @@ impl Shell3 {
         let normal = (nodes[1] - nodes[0]).cross(&(nodes[2] - nodes[0]));
         let longest = (0..3).map(|i| (nodes[(i + 1) % 3] - nodes[i]).norm_squared()).fold(0.0, f64::max);
         let ratio = normal.norm() / longest;
-        if !(ratio > 1e-9) {
+        if !exceeds(ratio, 1e-9) {
             return Err(ElementError::NoArea);
         }
         if ratio < LEAST_HEIGHT {
@@ -50,9 +50,11 @@ impl Shell3 {
     pub fn matrices(&self) -> Matrices {
         let corners = &self.flat.corners;
         let (membrane, bending) = (membrane3::stiffness(corners, &self.plate), bending::triangle(corners, &self.plate));
-        let twelfth = self.area() / 12.0;
-        let shared = [0, 1, 2].map(|i| [0, 1, 2].map(|j| if i == j { 2.0 * twelfth } else { twelfth }));
-        self.flat.matrices(&self.plate, &membrane, &bending, &shared)
+        let area = self.area();
+        let products = Products::new(POINTS.iter().flat_map(|&(a, b, weight)| {
+            [[a, b, b], [b, a, b], [b, b, a]].map(|lambda| (lambda, edges(lambda), weight * area))
+        }));
+        self.flat.matrices(&self.nodes, &self.plate, &membrane, &bending, &products)
     }
 
     /// Area coordinates of the point over or under which (x, y) lies; `None` outside, beyond `slack` (in these
@@ -74,8 +76,21 @@ impl Shell3 {
     }
 
     /// Row that gives the displacement along `direction` of a point `arm` (global, m) away from the element at these area
-    /// coordinates. It is linear between the nodes, so that rigid motions come out exactly.
+    /// coordinates. Rigid motions come out exactly; the element's own shapes as in its M, so that it is smooth along its
+    /// edges.
     pub fn interpolate(&self, lambda: [f64; 3], direction: [f64; 3], arm: [f64; 3]) -> Weights {
-        interpolate(&lambda, direction, arm)
+        interpolate(&self.nodes, &lambda, &edges(lambda), direction, arm)
     }
 }
+
+/// P: 1 in the middle of an edge, 0 on the others.
+fn edges([a, b, c]: [f64; 3]) -> [f64; 3] {
+    [4.0 * a * b, 4.0 * b * c, 4.0 * c * a]
+}
+
+/// Area coordinates (a, b, b) in all orders and weights of the six-point rule, exact to degree 4 (Dunavant, Int. J. Numer.
+/// Methods Eng. 21, 1985, 1129–1148).
+const POINTS: [(f64, f64, f64); 2] = [
+    (0.108_103_018_168_070, 0.445_948_490_915_965, 0.223_381_589_678_011),
+    (0.816_847_572_980_459, 0.091_576_213_509_771, 0.109_951_743_655_322),
+];

@@ -2,10 +2,10 @@
 
 use nalgebra::Vector3;
 
-use super::flat::{Flat, interpolate};
-use super::membrane4::{area, bilinear, shapes};
+use super::flat::{Flat, Products, interpolate};
+use super::membrane4::{GAUSS, area, bilinear, shapes};
 use super::{Plate, bending, membrane4};
-use crate::error::ElementError;
+use crate::error::{ElementError, exceeds};
 use crate::matrices::{Matrices, Weights};
 
 /// A quadrilateral; four nodes in order around it, nearly in one plane.
@@ -34,11 +34,11 @@ impl Shell4 {
         let (first, second) = (nodes[2] - nodes[0], nodes[3] - nodes[1]);
         let normal = first.cross(&second);
         let size = first.norm_squared() + second.norm_squared();
-        if !(normal.norm() > 1e-9 * size) {
+        if !exceeds(normal.norm(), 1e-9 * size) {
             return Err(ElementError::NoArea);
         }
         let (edge, n) = (nodes[1] - nodes[0], normal.normalize());
-        if !((edge - n * n.dot(&edge)).norm_squared() > 1e-12 * size) {
+        if !exceeds((edge - n * n.dot(&edge)).norm_squared(), 1e-12 * size) {
             return Err(ElementError::NoArea);
         }
         let flat = Flat::new(&nodes, normal);
@@ -47,7 +47,7 @@ impl Shell4 {
             let (before, here, after) = (at(corner + 3), at(corner), at(corner + 1));
             let (a, b) = ([after[0] - here[0], after[1] - here[1]], [before[0] - here[0], before[1] - here[1]]);
             let (sine, cosine) = (a[0] * b[1] - a[1] * b[0], a[0] * b[0] + a[1] * b[1]);
-            if !(sine > LEAST_SINE * sine.hypot(cosine)) {
+            if !exceeds(sine, LEAST_SINE * sine.hypot(cosine)) {
                 return Err(ElementError::Corner { corner: corner + 1, angle: sine.atan2(cosine).to_degrees() });
             }
         }
@@ -68,15 +68,12 @@ impl Shell4 {
         let corners = &self.flat.corners;
         let membrane = membrane4::stiffness(corners, &self.plate);
         let bending = bending::quadrilateral(corners, &self.plate);
-        // N_i N_j times the Jacobian has degree 3 in ξ and η: two Gauss points are exact.
-        let (g, mut shared) = (1.0 / 3.0_f64.sqrt(), [[0.0; 4]; 4]);
-        for (xi, eta) in [(-g, -g), (g, -g), (g, g), (-g, g)] {
+        let points = GAUSS.into_iter().flat_map(|x| GAUSS.map(|y| (x, y)));
+        let products = Products::new(points.map(|((xi, wx), (eta, wy))| {
             let (n, _, jacobian) = bilinear(corners, xi, eta);
-            for (row, a) in shared.iter_mut().zip(n) {
-                row.iter_mut().zip(n).for_each(|(s, b)| *s += jacobian * a * b);
-            }
-        }
-        self.flat.matrices(&self.plate, &membrane, &bending, &shared)
+            (n, edges(xi, eta), wx * wy * jacobian)
+        }));
+        self.flat.matrices(&self.nodes, &self.plate, &membrane, &bending, &products)
     }
 
     /// (ξ, η), each between −1 and 1, of the point over or under which (x, y) lies; `None` outside, beyond `slack` (in ξ
@@ -111,8 +108,14 @@ impl Shell4 {
     }
 
     /// Row that gives the displacement along `direction` of a point `arm` (global, m) away from the element at (ξ, η).
-    /// It is bilinear between the nodes, so that rigid motions come out exactly.
+    /// Rigid motions come out exactly; the element's own shapes as in its M, so that it is smooth along its edges.
     pub fn interpolate(&self, [xi, eta]: [f64; 2], direction: [f64; 3], arm: [f64; 3]) -> Weights {
-        interpolate(&shapes(xi, eta).0, direction, arm)
+        interpolate(&self.nodes, &shapes(xi, eta).0, &edges(xi, eta), direction, arm)
     }
+}
+
+/// P: 1 in the middle of an edge, 0 on the others.
+fn edges(xi: f64, eta: f64) -> [f64; 4] {
+    let (x, y) = (0.5 * (1.0 - xi * xi), 0.5 * (1.0 - eta * eta));
+    [x * (1.0 - eta), y * (1.0 + xi), x * (1.0 + eta), y * (1.0 - xi)]
 }

@@ -70,7 +70,7 @@ fn the_element_does_not_know_the_axes() {
 
 #[test]
 fn the_element_does_not_know_where_its_numbering_begins() {
-    for (first, _) in [(1, ()), (2, ()), (3, ())] {
+    for first in 1..4 {
         let nodes = [0, 1, 2, 3].map(|i| QUAD[(i + first) % 4]);
         let turned = Shell4::new(nodes, PLATE).unwrap().matrices();
         same(&both()[0].0, &turned, |i| (i + first) % 4);
@@ -138,9 +138,13 @@ fn interpolation_holds_rigid_motion_with_an_arm() {
             assert!((apply(&row, motion) - exact).abs() < 1e-13);
         }
     }
-    let straight = quad.interpolate(l4, [0.0, 0.0, 1.0], [0.0; 3]);
-    assert!(straight.len() == 4 && straight.iter().all(|(place, _)| place % 6 == 2));
-    assert!((straight.iter().map(|(_, w)| w).sum::<f64>() - 1.0).abs() < 1e-15);
+    let down = quad.interpolate(l4, [0.0, 0.0, 1.0], [0.0; 3]);
+    let sum = |freedom: usize| down.iter().filter(|(place, _)| place % 6 == freedom).map(|(_, w)| w).sum::<f64>();
+    assert!(sum(0) == 0.0 && sum(1) == 0.0 && (sum(2) - 1.0).abs() < 1e-15);
+    // In the middle of an edge a beam's: half of each end, an eighth of the length of the turns' difference.
+    let flat = Shell4::new([[0.0; 3], [2.0, 0.0, 0.0], [2.0, 1.0, 0.0], [0.0, 1.0, 0.0]], PLATE).unwrap();
+    let row = flat.interpolate([0.0, -1.0], [0.0, 0.0, 1.0], [0.0; 3]);
+    assert_eq!(row, [(2, 0.5), (4, -0.25), (8, 0.5), (10, 0.25)]);
 }
 
 #[test]
@@ -183,4 +187,21 @@ fn what_is_no_shell_is_refused() {
     assert!(matches!(Shell3::new(sliver, PLATE), Err(ElementError::Sliver { .. })));
     let thin = Plate { thickness: 0.0, ..PLATE };
     assert!(matches!(Shell3::new(TRIANGLE, thin), Err(ElementError::Property { property: "thickness", .. })));
+}
+
+/// Shapes at the edge of what is accepted: long, skew, one corner nearly straight.
+#[test]
+fn poor_shapes_still_give_sound_matrices() {
+    let long = [[0.0, 0.0, 0.0], [1000.0, 0.0, 0.0], [1000.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
+    let skew = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [11.0, 0.5, 0.0], [10.0, 0.5, 0.0]];
+    let blunt = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.51, 0.51, 0.0], [0.0, 1.0, 0.0]];
+    for nodes in [long, skew, blunt] {
+        let matrices = Shell4::new(nodes, PLATE).unwrap().matrices();
+        let k = square(&matrices.k);
+        assert!(k.iter().all(|k| k.is_finite()));
+        for motion in rigid(&nodes) {
+            assert!((&k * &motion).amax() < 1e-9 * k.amax() * motion.amax());
+        }
+        assert!(k.clone().symmetric_eigenvalues().min() > -1e-10 * k.amax());
+    }
 }
