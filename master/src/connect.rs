@@ -3,12 +3,10 @@
 use std::collections::HashSet;
 use std::path::Path;
 
-use ttb_coupling::iteration::{OnFailure, Settings};
-use ttb_coupling::predictor::Predictor;
 use ttb_coupling::{Coupling, Subsystem};
 use ttb_fmi2::import::{Fmu, FmuInstance, FmuSubsystem, ModelDescription, VariableType};
 use ttb_scenario::Checked;
-use ttb_scenario::types::{Method, OnFailure as Policy, Predictor as First, Send};
+use ttb_scenario::types::Send;
 
 use crate::error::Error;
 
@@ -49,7 +47,7 @@ pub fn connect(train_track: &Path, bridge: &Path, checked: &Checked) -> Result<C
     if let Some(open) = unconnected(bridge.description(), &forces) {
         warnings.push(format!("{}: input {open} is connected to nothing and keeps its start value", bridge.name()));
     }
-    let settings = settings(checked);
+    let settings = checked.scenario.coupling.settings(checked.axle_load);
     for fmu in [&train_track, &bridge] {
         if settings.max_iterations > 1 && !fmu.can_restore() {
             return Err(Error::Input(format!(
@@ -118,24 +116,4 @@ fn refuse_strangers(bridge: &FmuInstance, train_track: &FmuInstance, forces: &[S
         }
     }
     Ok(())
-}
-
-fn settings(checked: &Checked) -> Settings {
-    let coupling = &checked.scenario.coupling;
-    Settings {
-        aitken: coupling.method == Method::Aitken,
-        predictor: match coupling.predictor {
-            First::Constant => Predictor::Constant,
-            First::Linear => Predictor::Linear,
-        },
-        tolerance: coupling.tolerance,
-        force_scale: checked.axle_load,
-        max_iterations: coupling.max_iterations,
-        hold_forces: coupling.send == Send::Mean,
-        on_failure: match coupling.on_failure {
-            Policy::Stop => OnFailure::Stop,
-            Policy::Halve => OnFailure::Halve,
-            Policy::Accept => OnFailure::Accept,
-        },
-    }
 }

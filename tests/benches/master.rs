@@ -5,9 +5,9 @@ use std::path::Path;
 use std::process::Command;
 use std::time::Instant;
 
-use ttb_coupling::Coupling;
 use ttb_coupling::iteration::{OnFailure, Settings};
 use ttb_coupling::predictor::Predictor;
+use ttb_coupling::{Coupling, Method};
 use ttb_fmi2::import::{Fmu, FmuSubsystem};
 
 const N: usize = 1000;
@@ -62,7 +62,8 @@ fn main() {
 
 fn settings(limit: usize) -> Settings {
     Settings {
-        aitken: false,
+        method: Method::FixedPoint,
+        reuse: 0,
         predictor: Predictor::Constant,
         tolerance: 1e-10,
         force_scale: 1e-3,

@@ -6,16 +6,22 @@
 //! Standard library only.
 
 pub mod acceleration;
+pub mod dense;
+mod exchange;
+mod identify;
 pub mod in_process;
 pub mod instance;
 pub mod interface;
 pub mod iteration;
 pub mod model;
+pub mod newton;
 pub mod predictor;
+pub mod quasi_newton;
 pub mod report;
 pub mod run;
 pub mod settings;
 pub mod snapshot;
+mod strategy;
 pub mod subsystem;
 
 pub use in_process::InProcess;
@@ -23,4 +29,6 @@ pub use instance::Instance;
 pub use interface::{Causality, Interface, Kind, Values, Variable};
 pub use iteration::{Coupling, IterationError, Outcome, Settings, StepInfo};
 pub use model::{Model, ModelError};
+pub use report::Report;
+pub use settings::{Method, OnFailure};
 pub use subsystem::{Failure, Subsystem};

@@ -1,5 +1,6 @@
 //! How a step went: the row of the iteration log, or why the run cannot go on.
 
+use crate::settings::Method;
 use crate::subsystem::Failure;
 
 /// How a step ended.
@@ -7,8 +8,26 @@ use crate::subsystem::Failure;
 pub enum Outcome {
     /// Within the tolerance.
     Converged,
-    /// k_max trials were not enough.
+    /// k_max trials were not enough, or the residual ran away.
     IterationLimit,
+}
+
+/// One of the two subsystems.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Side {
+    /// Train and track.
+    TrainTrack,
+    /// The bridge.
+    Bridge,
+}
+
+/// Where a Jacobian came from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Source {
+    /// Directional derivatives of the bridge, trials of the train–track subsystem.
+    Derivatives,
+    /// Trials of both.
+    Trials,
 }
 
 /// One row of the iteration log.
@@ -16,16 +35,33 @@ pub enum Outcome {
 pub struct StepInfo {
     /// How it ended.
     pub outcome: Outcome,
-    /// Trials, those of halved steps included.
+    /// Trials, those of rescues and halved steps included.
     pub iterations: usize,
     /// |r| / max(|G|, one axle load) of the last trial.
     pub residual: f64,
-    /// Last quotient of successive |r|: the observed contraction; 0 with a single trial.
+    /// Observed contraction: geometric mean of the quotients of successive |r|; 0 with a single trial.
     pub contraction: f64,
     /// How often both states were restored to try again.
     pub roll_backs: usize,
     /// Halvings that were needed.
     pub halvings: usize,
+    /// Times the step was begun again by quasi-Newton with an empty memory.
+    pub rescues: usize,
+    /// The method in force at its end.
+    pub method: Method,
+}
+
+/// What was found out about the coupling besides its steps.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Report {
+    /// ρ at the start, the contraction of the plain fixed point.
+    pub contraction: Option<f64>,
+    /// Trials and derivatives spent on ρ and on the Jacobian, in no step's count.
+    pub identification_trials: usize,
+    /// Where the Jacobian came from, if there is one.
+    pub jacobian: Option<Source>,
+    /// Decisions, each with its time, for people.
+    pub notes: Vec<String>,
 }
 
 /// A run that cannot go on.
@@ -37,32 +73,75 @@ pub enum IterationError {
     NotConverged {
         /// Begin of the step, s.
         t: f64,
-        /// Its size, s.
+        /// Its size, s; 0 in static equilibrium.
         h: f64,
         /// The last trial.
         info: StepInfo,
+        /// ρ of the fixed point there, where it could be measured.
+        rho: Option<f64>,
     },
-    /// The residual is not a number.
+    /// A subsystem answered NaN or infinity.
     NotFinite {
         /// Begin of the step, s.
         t: f64,
+        /// Which.
+        side: Side,
+        /// Position among its coupled outputs, from 0.
+        index: usize,
+        /// What it answered.
+        value: f64,
     },
+}
+
+impl std::fmt::Display for Side {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(match self {
+            Self::TrainTrack => "the train–track subsystem",
+            Self::Bridge => "the bridge",
+        })
+    }
 }
 
 impl std::fmt::Display for IterationError {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
             Self::Subsystem(failure) => failure.fmt(f),
-            Self::NotConverged { t, h, info } => write!(
+            Self::NotConverged { t, h, info, rho } => {
+                let (k, method) = (info.iterations, info.method.name());
+                write!(
+                    f,
+                    "the support forces did not converge in the step from t = {t} s (h = {h} s): residual {:.2e} after \
+                     {k} trials, at the end by {method}",
+                    info.residual
+                )?;
+                advise(f, *h, info, *rho)
+            }
+            Self::NotFinite { t, side, index, value } => write!(
                 f,
-                "the support forces did not converge in the step from t = {t} s (h = {h} s): residual {:.2e} after {} \
-                 trials, contraction {:.2}; try method aitken, a smaller step or on_failure halve",
-                info.residual, info.iterations, info.contraction
+                "{side} answered {value} in the step from t = {t} s, as its coupled output number {}",
+                index + 1
             ),
-            Self::NotFinite { t } => write!(f, "the support forces are not finite in the step from t = {t} s"),
         }
     }
 }
+
+/// What to do, by the reason that ρ shows.
+fn advise(f: &mut std::fmt::Formatter<'_>, h: f64, info: &StepInfo, rho: Option<f64>) -> std::fmt::Result {
+    let Some(rho) = rho else {
+        return write!(f, ", contraction {:.2}; allow more trials (max_iterations)", info.contraction);
+    };
+    write!(f, "; the plain iteration has ρ = {rho:.2} there")?;
+    if info.method == Method::FixedPoint && rho >= 0.5 {
+        write!(f, ": use method auto, newton or iqn-ils")
+    } else if rho < 1.0 {
+        write!(f, ": allow more trials (max_iterations), or a tolerance above the accuracy of the subsystems")
+    } else {
+        // ρ grows with h² as long as the bridge answers within a step by its mass (docs/theory.md, T47).
+        let enough = h * (0.5 / rho).sqrt();
+        write!(f, ": a step of about {enough:.1e} s brings it to 0.5; or use on_failure halve")
+    }
+}
+
 impl std::error::Error for IterationError {}
 impl From<Failure> for IterationError {
     fn from(failure: Failure) -> Self {

@@ -2,6 +2,34 @@
 
 use crate::predictor::Predictor;
 
+/// How the next trial follows from the residual.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Method {
+    /// λ ← G(λ): the paper's.
+    FixedPoint,
+    /// Aitken's dynamic relaxation.
+    Aitken,
+    /// Interface quasi-Newton.
+    IqnIls,
+    /// Newton's method with a Jacobian identified once.
+    Newton,
+    /// The cheapest of Aitken, quasi-Newton and Newton that does it, by what is observed.
+    Auto,
+}
+
+impl Method {
+    /// Its name in scenario files and results.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::FixedPoint => "fixed-point",
+            Self::Aitken => "aitken",
+            Self::IqnIls => "iqn-ils",
+            Self::Newton => "newton",
+            Self::Auto => "auto",
+        }
+    }
+}
+
 /// What to do with a step that does not converge.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum OnFailure {
@@ -16,8 +44,10 @@ pub enum OnFailure {
 /// Settings of the iteration.
 #[derive(Clone, Copy, Debug)]
 pub struct Settings {
-    /// Aitken's relaxation, or the plain fixed point.
-    pub aitken: bool,
+    /// Acceleration.
+    pub method: Method,
+    /// Earlier steps whose trials the quasi-Newton methods remember.
+    pub reuse: usize,
     /// First trial.
     pub predictor: Predictor,
     /// On |r|, relative to max(|G|, `force_scale`).
