@@ -51,10 +51,11 @@ fn describe(checked: &Checked, settings: Settings) -> String {
     let Pair { mut train_track, mut bridge, coupled, .. } = pair(checked);
     let mut coupling = Coupling::new(coupled.0, coupled.1, settings);
     coupling.initialise(&mut train_track, &mut bridge, 0.0).expect("static equilibrium");
-    let (mut trials, mut most, mut rescues) = (0, 0, 0);
+    let (mut trials, mut alone, mut most, mut rescues) = (0, 0, 0, 0);
     let begin = Instant::now();
     let ended = run(&mut coupling, &mut train_track, &mut bridge, axis, |_, _, _, _, info| {
         trials += info.iterations;
+        alone += info.train_track_trials;
         most = most.max(info.iterations);
         rescues += info.rescues;
         Ok::<_, IterationError>(ControlFlow::Continue(()))
@@ -63,12 +64,14 @@ fn describe(checked: &Checked, settings: Settings) -> String {
     let (rho, extra) = (report.contraction.unwrap_or(f64::NAN), report.identification_trials);
     let steps = axis.steps() as f64;
     let micros = 1e6 * begin.elapsed().as_secs_f64() / steps;
-    let mean = trials as f64 / steps;
+    let (mean, alone) = (trials as f64 / steps, f64::from(alone as u32) / steps);
     match ended {
         Ok(_) => {
-            let notes = report.notes.join("; ");
+            let switches: Vec<String> =
+                report.switches.iter().map(|(t, m)| format!("{} from {t:.3} s", m.name())).collect();
+            let notes = switches.join(", ");
             format!(
-                "ρ₀ {rho:6.3}  mean {mean:5.2}  max {most:2}  rescues {rescues}  extra {extra:3}  {micros:6.1} µs  {notes}"
+                "ρ₀ {rho:6.3}  mean {mean:5.2} (train–track {alone:5.2})  max {most:2}  rescues {rescues}  extra {extra:3}  {micros:6.1} µs  {notes}"
             )
         }
         Err(error) => format!("ρ₀ {rho:6.3}  FAILED: {error}"),

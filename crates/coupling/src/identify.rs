@@ -3,6 +3,7 @@
 use crate::dense::norm;
 use crate::exchange::Sides;
 use crate::iteration::Coupling;
+use crate::newton::Model;
 use crate::report::{IterationError, Source};
 
 /// Trials of the power iteration beyond the first.
@@ -48,16 +49,17 @@ impl Coupling {
         Ok(rho)
     }
 
-    /// J = I − ∂G/∂λ for the step from the saved states, row by row: by directional derivatives of the bridge where
-    /// they stand a test, else by one trial for every force. The trial at λ⁰ is the base.
-    pub(crate) fn jacobian(&mut self, sides: &mut Sides) -> Result<Vec<f64>, IterationError> {
+    /// H = ∂(d, ḋ)/∂λ and J = I − ∂G/∂λ for the step from the saved states: by directional derivatives of the bridge
+    /// where they stand a test, else by its steps; the train–track subsystem steps once for every force.
+    pub(crate) fn identify(&mut self, sides: &mut Sides) -> Result<Model, IterationError> {
         let n = self.lambda.len();
         let trial = self.lambda.clone();
         self.trial(sides)?;
         let (base, motion) = (self.answer.clone(), self.exchange.motion.clone());
         let scale = PROBE * self.settings.force_scale;
         let derivatives = self.derivatives_hold(sides, &trial, &motion)?;
-        let (mut jacobian, mut seed, mut change) = (vec![0.0; n * n], vec![0.0; n], vec![0.0; motion.len()]);
+        let (mut jacobian, mut compliance) = (vec![0.0; n * n], vec![0.0; n * motion.len()]);
+        let (mut seed, mut change) = (vec![0.0; n], vec![0.0; motion.len()]);
         let share = scale * self.exchange.share_of_force(sides.bridge);
         for j in 0..n {
             if derivatives {
@@ -75,11 +77,14 @@ impl Coupling {
             for i in 0..n {
                 jacobian[i * n + j] = f64::from(u8::from(i == j)) - (self.answer[i] - base[i]) / scale;
             }
+            for (i, at) in motion.iter().enumerate() {
+                compliance[i * n + j] = (self.exchange.motion[i] - at) / scale;
+            }
         }
         self.lambda = trial;
         self.report.identification_trials += n + 1;
-        self.report.jacobian = Some(if derivatives { Source::Derivatives } else { Source::Trials });
-        Ok(jacobian)
+        self.report.model = Some(if derivatives { Source::Derivatives } else { Source::Trials });
+        Ok(Model { compliance, jacobian, n })
     }
 
     /// Whether the bridge's directional derivatives are those of its steps *as the forces are sent*: along one

@@ -17,6 +17,7 @@
 //! converged step *is* the monolithic one, to the tolerance, for subsystems that integrate by the trapezoidal rule; a
 //! held end value would be first order only. Nothing here is allocated in a step.
 
+use crate::acceleration::Acceleration;
 use crate::exchange::{Exchange, Sides};
 use crate::predictor::History;
 pub use crate::report::{IterationError, Outcome, Report, StepInfo};
@@ -33,6 +34,15 @@ const STATIC_TRIALS: usize = 30;
 
 /// A residual that has grown by this much will not come back.
 const RUNAWAY: f64 = 1e6;
+
+/// Sub-iterations at most.
+const SUB_ITERATIONS: usize = 20;
+
+/// Sub-iterations go on until the residual is this much below the tolerance: the bridge's model is not exact.
+const CLOSER: f64 = 0.3;
+
+/// What the model may be off by, relative to the tolerance, where it stands for the bridge.
+const NEGLIGIBLE: f64 = 0.01;
 
 /// The coupling of one train–track subsystem with one bridge.
 pub struct Coupling {
@@ -74,6 +84,11 @@ impl Coupling {
         &self.report
     }
 
+    /// The method in force from step to step, never `Auto`.
+    pub fn method(&self) -> Method {
+        self.strategy.method()
+    }
+
     /// Static force compatibility in initialization mode, then the end of initialization.
     ///
     /// # Errors
@@ -86,9 +101,7 @@ impl Coupling {
     ) -> Result<StepInfo, IterationError> {
         let mut sides = Sides { train_track, bridge, t, h: 0.0 };
         self.strategy.begin_static();
-        let info = self.iterate(self.settings.max_iterations.max(STATIC_TRIALS), |this| {
-            this.exchange.equilibrium(&mut sides, &this.lambda, &mut this.answer)
-        })?;
+        let info = self.iterate(&mut sides, Mode::Equilibrium, self.settings.max_iterations.max(STATIC_TRIALS))?;
         self.strategy.end_static();
         if info.outcome == Outcome::IterationLimit && self.settings.on_failure != OnFailure::Accept {
             return Err(IterationError::NotConverged { t, h: 0.0, info, rho: None });
@@ -119,10 +132,7 @@ impl Coupling {
     fn one_pass(&mut self, sides: &mut Sides) -> Result<StepInfo, IterationError> {
         self.forces.predict(self.settings.predictor, sides.h, &mut self.lambda);
         self.strategy.begin_step(sides.h);
-        let info = self.iterate(1, |this| {
-            this.exchange.bridge(sides, this.forces.now(), &this.lambda, false)?;
-            this.exchange.train_track(sides, &mut this.answer, false)
-        })?;
+        let info = self.iterate(sides, Mode::OnePass, 1)?;
         if info.outcome != Outcome::Converged && self.settings.on_failure != OnFailure::Accept {
             return Err(IterationError::NotConverged { t: sides.t, h: sides.h, info, rho: None });
         }
@@ -137,6 +147,9 @@ impl Coupling {
         if info.outcome == Outcome::Converged || policy == OnFailure::Accept {
             self.forces.accept(&self.lambda, h);
             self.exchange.accept();
+            if self.strategy.observe(info.iterations).is_some() {
+                self.note(t);
+            }
             return Ok(info);
         }
         if policy == OnFailure::Stop || depth == HALVINGS {
@@ -150,6 +163,7 @@ impl Coupling {
         let second = self.step_or_halve(&mut sides.over(t + 0.5 * h, 0.5 * h), depth + 1)?;
         Ok(StepInfo {
             iterations: info.iterations + first.iterations + second.iterations,
+            train_track_trials: info.train_track_trials + first.train_track_trials + second.train_track_trials,
             roll_backs: info.roll_backs + 1 + first.roll_backs + second.roll_backs,
             halvings: 1 + first.halvings + second.halvings,
             rescues: info.rescues + first.rescues + second.rescues,
@@ -161,27 +175,36 @@ impl Coupling {
         sides.save()?;
         self.forces.predict(self.settings.predictor, sides.h, &mut self.lambda);
         if self.report.contraction.is_none() {
-            self.report.contraction = Some(self.contraction(sides)?);
+            let rho = self.contraction(sides)?;
+            self.report.contraction = Some(rho);
+            self.strategy.begin(rho);
         }
-        if self.strategy.wants_jacobian() {
-            let jacobian = self.jacobian(sides)?;
-            self.strategy.take_jacobian(Some(jacobian), sides.h);
+        if self.strategy.wants_model() {
+            let model = self.identify(sides)?;
+            self.strategy.take(model, sides.h);
+            self.note(sides.t);
         }
         self.strategy.begin_step(sides.h);
         let limit = self.settings.max_iterations;
-        let info = self.iterate(limit, |this| this.trial(sides))?;
+        let info = self.iterate(sides, Mode::RollBack, limit)?;
         if info.outcome == Outcome::Converged || self.settings.method == Method::FixedPoint {
             return Ok(info);
         }
         self.forces.predict(self.settings.predictor, sides.h, &mut self.lambda);
         self.strategy.begin_rescue();
-        let rescued = self.iterate(limit, |this| this.trial(sides))?;
+        let rescued = self.iterate(sides, Mode::RollBack, limit)?;
         Ok(StepInfo {
             iterations: info.iterations + rescued.iterations,
+            train_track_trials: info.train_track_trials + rescued.train_track_trials,
             roll_backs: info.roll_backs + 1 + rescued.roll_backs,
             rescues: 1,
             ..rescued
         })
+    }
+
+    /// Notes the method in force from `t` on.
+    fn note(&mut self, t: f64) {
+        self.report.switches.push((t, self.strategy.method()));
     }
 
     /// One trial of the step from the saved states: G(λ).
@@ -189,23 +212,35 @@ impl Coupling {
         self.exchange.trial(sides, self.forces.now(), &self.lambda, &mut self.answer)
     }
 
-    /// λ = G(λ) by trials; `trial` computes the answer to `self.lambda`.
-    fn iterate(
-        &mut self,
-        limit: usize,
-        mut trial: impl FnMut(&mut Self) -> Result<(), IterationError>,
-    ) -> Result<StepInfo, IterationError> {
-        let (mut k, mut first) = (0, 0.0);
+    /// A trial after sub-iterations. If the bridge moves as its model did, the train–track subsystem has just made its
+    /// part, and is spared it.
+    fn trial_as_foreseen(&mut self, sides: &mut Sides) -> Result<bool, IterationError> {
+        sides.bridge.restore()?;
+        self.exchange.bridge(sides, self.forces.now(), &self.lambda, true)?;
+        let negligible = NEGLIGIBLE * self.settings.tolerance * self.settings.force_scale;
+        if self.strategy.newton().is_some_and(|newton| newton.foresaw(&self.exchange.motion, negligible)) {
+            return Ok(true);
+        }
+        sides.train_track.restore()?;
+        self.exchange.train_track(sides, &mut self.answer, true)?;
+        Ok(false)
+    }
+
+    /// λ = G(λ) by trials.
+    fn iterate(&mut self, sides: &mut Sides, mode: Mode, limit: usize) -> Result<StepInfo, IterationError> {
+        let (mut k, mut alone, mut spared, mut first) = (0, 0, 0, 0.0);
         let (outcome, residual) = loop {
-            trial(self)?;
-            k += 1;
-            let (mut squared_residual, mut squared_answer) = (0.0, 0.0);
-            for ((r, answer), lambda) in self.residual.iter_mut().zip(&self.answer).zip(&self.lambda) {
-                *r = answer - lambda;
-                squared_residual += *r * *r;
-                squared_answer += answer * answer;
+            match mode {
+                Mode::Equilibrium => self.exchange.equilibrium(sides, &self.lambda, &mut self.answer)?,
+                Mode::OnePass => {
+                    self.exchange.bridge(sides, self.forces.now(), &self.lambda, false)?;
+                    self.exchange.train_track(sides, &mut self.answer, false)?;
+                }
+                Mode::RollBack if alone == 0 => self.trial(sides)?,
+                Mode::RollBack => spared += usize::from(self.trial_as_foreseen(sides)?),
             }
-            let residual = squared_residual.sqrt() / squared_answer.sqrt().max(self.settings.force_scale);
+            k += 1;
+            let residual = self.residual();
             if k == 1 {
                 first = residual;
             }
@@ -217,14 +252,71 @@ impl Coupling {
             if k == limit || lost {
                 break (Outcome::IterationLimit, residual);
             }
-            self.strategy.update(&mut self.lambda, &self.residual, residual);
+            alone += self.advance(sides, residual)?;
         };
         if outcome == Outcome::Converged {
             self.strategy.end_step(&self.lambda, &self.residual);
         }
         let contraction = if k > 1 && first > 0.0 { (residual / first).powf(1.0 / (k - 1) as f64) } else { 0.0 };
-        let method = self.strategy.in_force();
-        let roll_backs = k - 1;
-        Ok(StepInfo { outcome, iterations: k, residual, contraction, roll_backs, halvings: 0, rescues: 0, method })
+        Ok(StepInfo {
+            outcome,
+            iterations: k,
+            train_track_trials: k + alone - spared,
+            residual,
+            contraction,
+            roll_backs: k - 1,
+            halvings: 0,
+            rescues: 0,
+            method: self.strategy.in_force(),
+        })
     }
+
+    /// r = G − λ; |r| relative to max(|G|, one axle load).
+    fn residual(&mut self) -> f64 {
+        let (mut squared_residual, mut squared_answer) = (0.0, 0.0);
+        for ((r, answer), lambda) in self.residual.iter_mut().zip(&self.answer).zip(&self.lambda) {
+            *r = answer - lambda;
+            squared_residual += *r * *r;
+            squared_answer += answer * answer;
+        }
+        squared_residual.sqrt() / squared_answer.sqrt().max(self.settings.force_scale)
+    }
+
+    /// The next λ; trials of the train–track subsystem alone that it took. With a model of the bridge, λ solves
+    ///
+    /// ```text
+    /// λ = G_T(d^{k−1} + H (λ − λ^{k−1}))        G_T: the train–track subsystem's answer to a deck motion
+    /// ```
+    ///
+    /// by sub-iterations with the train–track subsystem: the next trial is the last one if H is exact.
+    fn advance(&mut self, sides: &mut Sides, residual: f64) -> Result<usize, IterationError> {
+        if let Some(newton) = self.strategy.newton() {
+            newton.base(&self.lambda, &self.exchange.motion);
+        }
+        self.strategy.update(&mut self.lambda, &self.residual, residual);
+        for alone in 1..=SUB_ITERATIONS {
+            let Some(newton) = self.strategy.newton() else { return Ok(0) };
+            newton.motion(&self.lambda, &mut self.exchange.motion);
+            sides.train_track.restore()?;
+            self.exchange.train_track(sides, &mut self.answer, true)?;
+            if self.residual() <= CLOSER * self.settings.tolerance {
+                return Ok(alone);
+            }
+            if let Some(newton) = self.strategy.newton() {
+                newton.update(&mut self.lambda, &self.residual);
+            }
+        }
+        Ok(SUB_ITERATIONS)
+    }
+}
+
+/// What a trial is.
+#[derive(Clone, Copy, PartialEq)]
+enum Mode {
+    /// Static equilibrium, in initialization mode.
+    Equilibrium,
+    /// A step that cannot be repeated.
+    OnePass,
+    /// A step from the saved states.
+    RollBack,
 }

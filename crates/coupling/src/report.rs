@@ -21,7 +21,7 @@ pub enum Side {
     Bridge,
 }
 
-/// Where a Jacobian came from.
+/// Where a model of the interface came from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Source {
     /// Directional derivatives of the bridge, trials of the train–track subsystem.
@@ -37,6 +37,8 @@ pub struct StepInfo {
     pub outcome: Outcome,
     /// Trials, those of rescues and halved steps included.
     pub iterations: usize,
+    /// Steps of the train–track subsystem: more than trials where it was iterated against a model of the bridge.
+    pub train_track_trials: usize,
     /// |r| / max(|G|, one axle load) of the last trial.
     pub residual: f64,
     /// Observed contraction: geometric mean of the quotients of successive |r|; 0 with a single trial.
@@ -56,12 +58,12 @@ pub struct StepInfo {
 pub struct Report {
     /// ρ at the start, the contraction of the plain fixed point.
     pub contraction: Option<f64>,
-    /// Trials and derivatives spent on ρ and on the Jacobian, in no step's count.
+    /// Trials and derivatives spent on ρ and on the model, in no step's count.
     pub identification_trials: usize,
-    /// Where the Jacobian came from, if there is one.
-    pub jacobian: Option<Source>,
-    /// Decisions, each with its time, for people.
-    pub notes: Vec<String>,
+    /// Where the model came from, if there is one.
+    pub model: Option<Source>,
+    /// Methods that took over in the course of the run, and when, s.
+    pub switches: Vec<(f64, Method)>,
 }
 
 /// A run that cannot go on.

@@ -1,7 +1,7 @@
 //! Which acceleration is in force, and when another one takes its place.
 
 use crate::acceleration::{Acceleration, Aitken, FixedPoint};
-use crate::newton::Newton;
+use crate::newton::{Model, Newton};
 use crate::quasi_newton::QuasiNewton;
 use crate::settings::{Method, Settings};
 
@@ -18,13 +18,25 @@ pub(crate) struct Strategy {
     aitken: Aitken,
     quasi: Option<QuasiNewton>,
     newton: Option<Newton>,
-    /// Nobody may ask for a Jacobian again.
+    /// There is no useful model: nobody may ask again.
     hopeless: bool,
-    /// |r| of the trial before, as Newton saw it.
+    /// |r| of the trial before.
     before: f64,
-    /// Trials spent beyond two a step.
+    /// `Auto`: trials beyond [`ENOUGH`] a step so far, and the running mean of trials a step.
     spent: f64,
+    mean: f64,
 }
+
+/// Trials a step that need no improvement.
+const ENOUGH: f64 = 2.0;
+/// Up to so many forces Newton's dense model costs less than a trial.
+const SMALL: usize = 150;
+/// Running means of trials a step above which `Auto` leaves Aitken, identifies a large model, gives Newton up.
+const MANY: [f64; 3] = [3.5, 5.0, 4.0];
+/// ρ above which `Auto` does not begin with Aitken.
+const STRONG: f64 = 0.05;
+/// Weight of the newest step in the running mean.
+const WEIGHT: f64 = 0.1;
 
 impl Strategy {
     pub fn new(n: usize, settings: &Settings) -> Self {
@@ -42,7 +54,13 @@ impl Strategy {
             hopeless: false,
             before: f64::INFINITY,
             spent: 0.0,
+            mean: 0.0,
         }
+    }
+
+    /// In force from step to step.
+    pub fn method(&self) -> Method {
+        self.method
     }
 
     /// In force in the last step.
@@ -50,15 +68,50 @@ impl Strategy {
         self.now
     }
 
-    /// Whether a Jacobian for steps of `h` seconds should be identified now.
-    pub fn wants_jacobian(&self) -> bool {
-        self.method == Method::Newton && self.newton.is_none() && !self.hopeless
+    /// Whether a model should be identified now. `Auto` waits until the trials it would have saved exceed those it
+    /// costs: whenever the run ends, that was at most twice as dear as to know it beforehand.
+    pub fn wants_model(&self) -> bool {
+        let pays = || self.spent > self.n as f64 && (self.n <= SMALL || self.mean > MANY[1]);
+        let wanted = self.method == Method::Newton || (self.asked == Method::Auto && pays());
+        wanted && self.newton.is_none() && !self.hopeless
     }
 
-    /// The Jacobian that was asked for; `None`: there is no useful one.
-    pub fn take_jacobian(&mut self, jacobian: Option<Vec<f64>>, h: f64) {
-        self.newton = jacobian.and_then(|j| Newton::new(self.n, j, h, self.reuse));
+    /// What was identified for steps of `h` seconds.
+    pub fn take(&mut self, model: Model, h: f64) {
+        self.newton = Newton::new(model, h, self.reuse);
         self.hopeless = self.newton.is_none();
+        self.method = if self.hopeless { Method::IqnIls } else { Method::Newton };
+        self.mean = ENOUGH;
+    }
+
+    /// ρ at the start; the method that `Auto` begins with, if it does not begin with Aitken.
+    pub fn begin(&mut self, rho: f64) {
+        if self.asked == Method::Auto && rho > STRONG {
+            self.method = Method::IqnIls;
+        }
+    }
+
+    /// A step took so many trials; the method that takes over, if one does.
+    pub fn observe(&mut self, trials: usize) -> Option<Method> {
+        if self.asked != Method::Auto {
+            return None;
+        }
+        self.spent += trials as f64 - ENOUGH;
+        self.mean += WEIGHT * (trials as f64 - self.mean);
+        let before = self.method;
+        match self.method {
+            Method::Aitken if self.mean > MANY[0] => self.method = Method::IqnIls,
+            Method::Newton if self.mean > MANY[2] => {
+                (self.method, self.newton, self.hopeless) = (Method::IqnIls, None, true);
+            }
+            _ => (),
+        }
+        (self.method != before).then_some(self.method)
+    }
+
+    /// Newton's method, if it is in force.
+    pub fn newton(&mut self) -> Option<&mut Newton> {
+        self.newton.as_mut().filter(|_| self.now == Method::Newton)
     }
 
     pub fn begin_static(&mut self) {
