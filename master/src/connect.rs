@@ -48,14 +48,19 @@ pub fn connect(train_track: &Path, bridge: &Path, checked: &Checked) -> Result<C
         warnings.push(format!("{}: input {open} is connected to nothing and keeps its start value", bridge.name()));
     }
     let settings = checked.scenario.coupling.settings(checked.axle_load);
-    for fmu in [&train_track, &bridge] {
-        if settings.max_iterations > 1 && !fmu.can_restore() {
-            return Err(Error::Input(format!(
-                "{} cannot save and restore its state (canGetAndSetFMUstate), so its steps cannot be iterated; one pass a step is \
-                 coupling.max_iterations = 1 with on_failure = accept, which is only accurate for heavy bridges and small steps",
-                fmu.name()
-            )));
-        }
+    if settings.max_iterations > 1 && !train_track.can_restore() {
+        return Err(Error::Input(format!(
+            "{} cannot save and restore its state (canGetAndSetFMUstate), so its steps cannot be repeated; one pass a step is \
+             coupling.max_iterations = 1 with on_failure = accept, which is only accurate for heavy bridges and small steps",
+            train_track.name()
+        )));
+    }
+    if settings.max_iterations > 1 && !bridge.can_restore() {
+        warnings.push(format!(
+            "{} cannot save and restore its state (canGetAndSetFMUstate): its steps are taken once, without iteration; the \
+             summary estimates the error",
+            bridge.name()
+        ));
     }
     if checked.scenario.coupling.send == Send::Rate && !bridge.can_interpolate() {
         let name = bridge.name();

@@ -18,7 +18,7 @@ use crate::error::Error;
 use crate::peaks::Peaks;
 use crate::plot::Plot;
 use crate::record::Recorder;
-use crate::summary::{Iterations, Seconds, Summary};
+use crate::summary::{CouplingReport, Iterations, Seconds, Summary};
 
 /// Steps between two looks at the progress bar.
 const PROGRESS: u64 = 50;
@@ -57,7 +57,7 @@ pub fn run(arguments: &Run) -> Result<(), Error> {
     let outcome = simulate(&mut connected, axis, &mut log, &stop, begin, &mut seconds);
     log.bar.finish_and_clear();
     let outcome = outcome.and(log.recorder.flush());
-    finish(&checked, &log, outcome, seconds, &connected.warnings, folder, arguments.quiet)
+    finish(&checked, &log, outcome, seconds, &connected, folder, arguments.quiet)
 }
 
 /// Results of a run as they come.
@@ -136,11 +136,13 @@ fn finish(
     log: &Log,
     outcome: Result<(), Error>,
     seconds: Seconds,
-    warnings: &[String],
+    connected: &Connected,
     folder: &Path,
     quiet: bool,
 ) -> Result<(), Error> {
-    let summary = Summary::new(checked, &outcome, log.reached, &log.iterations, seconds, warnings, &log.peaks);
+    let coupling = CouplingReport::new(&connected.coupling);
+    let (iterations, warnings) = (&log.iterations, &connected.warnings);
+    let summary = Summary::new(checked, &outcome, log.reached, iterations, coupling, seconds, warnings, &log.peaks);
     let written = summary.write(&folder.join("summary.json"));
     if !quiet {
         summary.print(folder);

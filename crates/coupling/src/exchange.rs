@@ -62,11 +62,16 @@ impl Exchange {
 
     /// λ → (d, ḋ), from the states the subsystems are in.
     pub fn bridge(&mut self, sides: &mut Sides, now: &[f64], lambda: &[f64], back: bool) -> Result<(), IterationError> {
-        let interpolate = self.interpolates(sides.bridge);
-        send(sides.bridge, now, lambda, sides.h, interpolate, &mut self.sent_force)?;
+        self.announce(sides, now, lambda)?;
         sides.bridge.step(sides.t, sides.h, back)?;
         sides.bridge.get_outputs(&mut self.motion)?;
         check(&self.motion, Side::Bridge, sides.t)
+    }
+
+    /// Sets the bridge's forces for a step that is not taken (yet).
+    pub fn announce(&mut self, sides: &mut Sides, now: &[f64], lambda: &[f64]) -> Result<(), Failure> {
+        let interpolate = self.interpolates(sides.bridge);
+        send(sides.bridge, now, lambda, sides.h, interpolate, &mut self.sent_force)
     }
 
     /// (d, ḋ) → G.

@@ -7,12 +7,17 @@ use crate::newton::Model;
 use crate::report::{IterationError, Source};
 
 /// Trials of the power iteration beyond the first.
-const POWER: usize = 3;
+pub(crate) const POWER: usize = 3;
 /// Change of a force to see its effect, axle loads: large beside the rounding of any FMU, small beside the contacts'
 /// curvature.
-const PROBE: f64 = 1e-3;
+pub(crate) const PROBE: f64 = 1e-3;
 /// Derivatives off by more than this, relatively, are not those of the steps.
 const CREDIBLE: f64 = 1e-3;
+
+/// A load that is much alike everywhere, with something of every other shape: multiples of the golden section, modulo 1.
+pub(crate) fn shape(i: usize) -> f64 {
+    0.5 + (i as f64 * 0.618_033_988_749_895).fract()
+}
 
 impl Coupling {
     /// ρ, the largest eigenvalue of −∂G/∂λ for the step from the saved states, by power iteration with
@@ -30,8 +35,7 @@ impl Coupling {
         let trial = self.lambda.clone();
         self.trial(sides)?;
         base.copy_from_slice(&self.answer);
-        // Alike everywhere, with something of every other shape (multiples of the golden section, modulo 1).
-        v.iter_mut().enumerate().for_each(|(i, v)| *v = 0.5 + (i as f64 * 0.618_033_988_749_895).fract());
+        v.iter_mut().enumerate().for_each(|(i, v)| *v = shape(i));
         let mut rho = 0.0;
         for _ in 0..POWER {
             let size = norm(&v);
@@ -95,7 +99,7 @@ impl Coupling {
         }
         let scale = PROBE * self.settings.force_scale;
         let share = self.exchange.share_of_force(sides.bridge);
-        let wave = |i: usize| scale * (0.5 + (i as f64 * 0.618_033_988_749_895).fract());
+        let wave = |i: usize| scale * shape(i);
         let seed: Vec<f64> = (0..trial.len()).map(|i| share * wave(i)).collect();
         let mut change = vec![0.0; motion.len()];
         sides.bridge.derivative(&seed, &mut change)?;

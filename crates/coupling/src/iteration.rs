@@ -19,6 +19,7 @@
 
 use crate::acceleration::Acceleration;
 use crate::exchange::{Exchange, Sides};
+use crate::explicit::Explicit;
 use crate::predictor::History;
 pub use crate::report::{IterationError, Outcome, Report, StepInfo};
 use crate::settings::Method;
@@ -53,9 +54,10 @@ pub struct Coupling {
     pub(crate) lambda: Vec<f64>,
     /// G(λ), the answer of the train–track subsystem.
     pub(crate) answer: Vec<f64>,
-    residual: Vec<f64>,
+    pub(crate) residual: Vec<f64>,
     strategy: Strategy,
     pub(crate) report: Report,
+    pub(crate) explicit: Explicit,
 }
 
 impl Coupling {
@@ -71,6 +73,7 @@ impl Coupling {
             residual: zero(),
             strategy: Strategy::new(forces, &settings),
             report: Report::default(),
+            explicit: Explicit::default(),
         }
     }
 
@@ -116,7 +119,8 @@ impl Coupling {
     /// One macro step [t, t + h].
     ///
     /// # Errors
-    /// A subsystem fails, the residual is not finite, or the step does not converge and the policy says stop.
+    /// A subsystem fails or answers NaN, the step does not converge and the policy says stop, or a bridge that cannot
+    /// roll back makes the coupling unstable.
     pub fn step(
         &mut self,
         train_track: &mut dyn Subsystem,
@@ -125,7 +129,13 @@ impl Coupling {
         h: f64,
     ) -> Result<StepInfo, IterationError> {
         let mut sides = Sides { train_track, bridge, t, h };
-        if self.settings.max_iterations > 1 { self.step_or_halve(&mut sides, 0) } else { self.one_pass(&mut sides) }
+        if self.settings.max_iterations == 1 {
+            self.one_pass(&mut sides)
+        } else if self.settings.method == Method::Explicit || !sides.bridge.can_roll_back() {
+            self.explicit_step(&mut sides)
+        } else {
+            self.step_or_halve(&mut sides, 0)
+        }
     }
 
     /// Bridge first under the extrapolated forces, once; nothing but the answer carries the train's forces on.
@@ -175,9 +185,7 @@ impl Coupling {
         sides.save()?;
         self.forces.predict(self.settings.predictor, sides.h, &mut self.lambda);
         if self.report.contraction.is_none() {
-            let rho = self.contraction(sides)?;
-            self.report.contraction = Some(rho);
-            self.strategy.begin(rho);
+            self.report.contraction = Some(self.contraction(sides)?);
         }
         if self.strategy.wants_model() {
             let model = self.identify(sides)?;
@@ -272,7 +280,7 @@ impl Coupling {
     }
 
     /// r = G − λ; |r| relative to max(|G|, one axle load).
-    fn residual(&mut self) -> f64 {
+    pub(crate) fn residual(&mut self) -> f64 {
         let (mut squared_residual, mut squared_answer) = (0.0, 0.0);
         for ((r, answer), lambda) in self.residual.iter_mut().zip(&self.answer).zip(&self.lambda) {
             *r = answer - lambda;

@@ -8,6 +8,7 @@
 pub mod acceleration;
 pub mod dense;
 mod exchange;
+pub mod explicit;
 mod identify;
 pub mod in_process;
 pub mod instance;

@@ -4,12 +4,15 @@ use crate::settings::Method;
 use crate::subsystem::Failure;
 
 /// How a step ended.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Outcome {
     /// Within the tolerance.
     Converged,
     /// k_max trials were not enough, or the residual ran away.
+    #[default]
     IterationLimit,
+    /// The step was not iterated: the bridge cannot roll back. The residual is an error estimate.
+    Explicit,
 }
 
 /// One of the two subsystems.
@@ -31,7 +34,7 @@ pub enum Source {
 }
 
 /// One row of the iteration log.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct StepInfo {
     /// How it ended.
     pub outcome: Outcome,
@@ -64,6 +67,17 @@ pub struct Report {
     pub model: Option<Source>,
     /// Methods that took over in the course of the run, and when, s.
     pub switches: Vec<(f64, Method)>,
+    /// How far steps that were not iterated are off.
+    pub explicit: Option<ErrorEstimate>,
+}
+
+/// How far steps that were not iterated are off.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct ErrorEstimate {
+    /// Largest |G − λ| / max(|G|, one axle load): force that was missing at the end of a step.
+    pub residual: f64,
+    /// Work of G − λ on the deck, relative to that of G counted as amounts.
+    pub work: f64,
 }
 
 /// A run that cannot go on.
@@ -81,6 +95,17 @@ pub enum IterationError {
         info: StepInfo,
         /// ρ of the fixed point there, where it could be measured.
         rho: Option<f64>,
+    },
+    /// The bridge cannot roll back, and without that the coupling is not stable.
+    Unstable {
+        /// Begin of the step, s.
+        t: f64,
+        /// Its size, s.
+        h: f64,
+        /// ρ, where the bridge's derivatives told.
+        rho: Option<f64>,
+        /// |r| / max(|G|, one axle load) of the step; 0 if it was not taken.
+        residual: f64,
     },
     /// A subsystem answered NaN or infinity.
     NotFinite {
@@ -117,6 +142,20 @@ impl std::fmt::Display for IterationError {
                     info.residual
                 )?;
                 advise(f, *h, info, *rho)
+            }
+            Self::Unstable { t, h, rho, residual } => {
+                write!(
+                    f,
+                    "the bridge cannot save and restore its state, and without that the coupling is not stable: "
+                )?;
+                match rho {
+                    Some(rho) if *residual == 0.0 => {
+                        let (most, enough) = (crate::explicit::STABLE, h * (crate::explicit::STABLE / rho).sqrt());
+                        write!(f, "ρ = {rho:.2}, at most {most} is possible (about that with h = {enough:.1e} s)")?;
+                    }
+                    _ => write!(f, "in the step from t = {t} s (h = {h} s) forces disagree by {residual:.1e}")?,
+                }
+                write!(f, "; use a smaller step, or a bridge FMU with canGetAndSetFMUstate")
             }
             Self::NotFinite { t, side, index, value } => write!(
                 f,

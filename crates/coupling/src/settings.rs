@@ -3,7 +3,7 @@
 use crate::predictor::Predictor;
 
 /// How the next trial follows from the residual.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Method {
     /// λ ← G(λ): the paper's.
     FixedPoint,
@@ -14,7 +14,10 @@ pub enum Method {
     /// Newton's method with a Jacobian identified once.
     Newton,
     /// The cheapest of Aitken, quasi-Newton and Newton that does it, by what is observed.
+    #[default]
     Auto,
+    /// No iteration, as for a bridge that cannot roll back: see [`crate::explicit`].
+    Explicit,
 }
 
 impl Method {
@@ -26,6 +29,7 @@ impl Method {
             Self::IqnIls => "iqn-ils",
             Self::Newton => "newton",
             Self::Auto => "auto",
+            Self::Explicit => "explicit",
         }
     }
 }

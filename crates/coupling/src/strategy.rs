@@ -22,7 +22,7 @@ pub(crate) struct Strategy {
     hopeless: bool,
     /// |r| of the trial before.
     before: f64,
-    /// `Auto`: trials beyond [`ENOUGH`] a step so far, and the running mean of trials a step.
+    /// `Auto`: trials beyond [`ENOUGH`] a step so far, and their running mean a step.
     spent: f64,
     mean: f64,
 }
@@ -31,16 +31,17 @@ pub(crate) struct Strategy {
 const ENOUGH: f64 = 2.0;
 /// Up to so many forces Newton's dense model costs less than a trial.
 const SMALL: usize = 150;
-/// Running means of trials a step above which `Auto` leaves Aitken, identifies a large model, gives Newton up.
-const MANY: [f64; 3] = [3.5, 5.0, 4.0];
-/// ρ above which `Auto` does not begin with Aitken.
-const STRONG: f64 = 0.05;
+/// Running means of trials a step above which `Auto` identifies a small model, a large one, gives Newton up.
+const MANY: [f64; 3] = [3.0, 5.0, 4.0];
 /// Weight of the newest step in the running mean.
 const WEIGHT: f64 = 0.1;
 
 impl Strategy {
     pub fn new(n: usize, settings: &Settings) -> Self {
-        let method = if settings.method == Method::Auto { Method::Aitken } else { settings.method };
+        let method = match settings.method {
+            Method::Auto | Method::Explicit => Method::IqnIls,
+            asked => asked,
+        };
         Self {
             n,
             asked: settings.method,
@@ -71,7 +72,7 @@ impl Strategy {
     /// Whether a model should be identified now. `Auto` waits until the trials it would have saved exceed those it
     /// costs: whenever the run ends, that was at most twice as dear as to know it beforehand.
     pub fn wants_model(&self) -> bool {
-        let pays = || self.spent > self.n as f64 && (self.n <= SMALL || self.mean > MANY[1]);
+        let pays = || self.spent > self.n as f64 && self.mean > MANY[usize::from(self.n > SMALL)];
         let wanted = self.method == Method::Newton || (self.asked == Method::Auto && pays());
         wanted && self.newton.is_none() && !self.hopeless
     }
@@ -84,13 +85,6 @@ impl Strategy {
         self.mean = ENOUGH;
     }
 
-    /// ρ at the start; the method that `Auto` begins with, if it does not begin with Aitken.
-    pub fn begin(&mut self, rho: f64) {
-        if self.asked == Method::Auto && rho > STRONG {
-            self.method = Method::IqnIls;
-        }
-    }
-
     /// A step took so many trials; the method that takes over, if one does.
     pub fn observe(&mut self, trials: usize) -> Option<Method> {
         if self.asked != Method::Auto {
@@ -98,15 +92,11 @@ impl Strategy {
         }
         self.spent += trials as f64 - ENOUGH;
         self.mean += WEIGHT * (trials as f64 - self.mean);
-        let before = self.method;
-        match self.method {
-            Method::Aitken if self.mean > MANY[0] => self.method = Method::IqnIls,
-            Method::Newton if self.mean > MANY[2] => {
-                (self.method, self.newton, self.hopeless) = (Method::IqnIls, None, true);
-            }
-            _ => (),
+        if self.method != Method::Newton || self.mean <= MANY[2] {
+            return None;
         }
-        (self.method != before).then_some(self.method)
+        (self.method, self.newton, self.hopeless) = (Method::IqnIls, None, true);
+        Some(self.method)
     }
 
     /// Newton's method, if it is in force.
