@@ -14,11 +14,12 @@ use ttb_scenario::Checked;
 use crate::build;
 use crate::cli::Run;
 use crate::connect::{Connected, connect};
+use crate::coupled::CouplingReport;
 use crate::error::Error;
 use crate::peaks::Peaks;
 use crate::plot::Plot;
 use crate::record::Recorder;
-use crate::summary::{CouplingReport, Iterations, Seconds, Summary};
+use crate::summary::{Iterations, Seconds, Summary};
 
 /// Steps between two looks at the progress bar.
 const PROGRESS: u64 = 50;

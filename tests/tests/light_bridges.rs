@@ -81,7 +81,7 @@ fn try_run(checked: &Checked, settings: Settings, abilities: Abilities) -> Resul
     let axis = TimeAxis::new(checked.train_track.step, checked.train_track.end);
     let (mut trials, mut most, mut rescues, mut mid) = (0, 0, 0, vec![0.0]);
     let mut motion = vec![0.0; coupled.1];
-    run(&mut coupling, &mut train_track, &mut bridge, axis, |_, bridge, _, _, info| {
+    let _ = run(&mut coupling, &mut train_track, &mut bridge, axis, |_, bridge, _, _, info| {
         trials += info.iterations;
         most = most.max(info.iterations);
         rescues += info.rescues;
@@ -134,7 +134,7 @@ fn auto_converges_on_every_light_bridge_in_less_than_three_trials_a_step() {
     for (mass, h) in light_cases() {
         for abilities in [ALL, [true, false, false]] {
             let ran = runs(&r1_with(mass, h), Method::Auto, abilities);
-            assert!(ran.mean <= 3.5, "{mass} kg/m, {h} s, {abilities:?}: {:.2}", ran.mean);
+            assert!(ran.mean <= 3.0, "{mass} kg/m, {h} s, {abilities:?}: {:.2}", ran.mean);
             assert_eq!(ran.rescues, 0);
         }
     }
@@ -187,6 +187,20 @@ fn without_roll_back_the_estimate_bounds_the_error() {
             println!("{mass} kg/m, {h} s, {abilities:?}: off {off:.1e}, estimate {residual:.1e}, work {work:.1e}");
             assert!(off <= residual, "{mass} kg/m, {h} s, {abilities:?}: {off:.1e}, estimate {residual:.1e}");
         }
+    }
+}
+
+#[test]
+fn without_roll_back_the_limit_of_the_contraction_leaves_a_margin() {
+    // ρ = 0.105, 0.164, 0.217 at the start, twice the limit; with derivatives these are refused.
+    for (mass, h) in [(500.0, 1e-3), (500.0, 2e-3), (500.0, 5e-3)] {
+        let checked = r1_with(mass, h);
+        let truth = runs(&checked, Method::Auto, ALL);
+        assert!(truth.report.contraction.is_some_and(|rho| rho > ttb_coupling::explicit::STABLE));
+        let ran = runs(&checked, Method::Auto, [false, false, true]);
+        let (off, estimate) = (difference(&truth.mid, &ran.mid), ran.report.explicit.unwrap_or_default());
+        println!("{mass} kg/m, {h} s: off {off:.1e}, {estimate:?}");
+        assert!(off <= estimate.residual, "{mass} kg/m, {h} s: {off:.1e}, {estimate:?}");
     }
 }
 

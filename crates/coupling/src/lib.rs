@@ -24,6 +24,7 @@ pub mod settings;
 pub mod snapshot;
 mod strategy;
 pub mod subsystem;
+mod trials;
 
 pub use in_process::InProcess;
 pub use instance::Instance;

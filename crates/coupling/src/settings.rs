@@ -13,7 +13,7 @@ pub enum Method {
     IqnIls,
     /// Newton's method with a Jacobian identified once.
     Newton,
-    /// The cheapest of Aitken, quasi-Newton and Newton that does it, by what is observed.
+    /// Quasi-Newton, and Newton once the trials show that its model pays.
     #[default]
     Auto,
     /// No iteration, as for a bridge that cannot roll back: see [`crate::explicit`].

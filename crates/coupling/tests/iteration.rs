@@ -91,8 +91,9 @@ fn every_step_ends_on_the_known_force() {
         assert!((coupling.forces()[0] / exact - 1.0).abs() < 1e-10, "{} {exact}", coupling.forces()[0]);
         assert_eq!(info.roll_backs, info.iterations - 1);
     }
-    // One restored state more than trials repeated: also before the first trial of a step.
+    // One restored state more than trials repeated: also before the first trial of a step, and of ρ.
     assert_eq!(bridge.roll_backs, bridge.steps.len());
+    assert_eq!(coupling.report().contraction.map(|rho| (rho * 1e6).round()), Some(4e5));
 }
 
 #[test]
@@ -117,7 +118,8 @@ fn a_step_that_does_not_converge_follows_the_policy() {
         );
         coupling.initialise(&mut train_track, &mut bridge, 0.0).unwrap();
         let result = coupling.step(&mut train_track, &mut bridge, 0.0, 1.0);
-        (result, bridge.steps)
+        // Without the four trials of the first step that measure ρ.
+        (result, bridge.steps.split_off(4))
     };
     let (stopped, _) = run(OnFailure::Stop);
     assert!(matches!(stopped, Err(IterationError::NotConverged { t: 0.0, h: 1.0, .. })));

@@ -49,13 +49,13 @@ pub enum Method {
     /// λ ← G(λ): the paper's.
     FixedPoint,
     /// Aitken's dynamic relaxation.
-    #[default]
     Aitken,
     /// Interface quasi-Newton with a least-squares model of the trials so far.
     IqnIls,
     /// Newton's method with an interface Jacobian identified once, corrected as the train moves.
     Newton,
-    /// The cheapest of Aitken, quasi-Newton and Newton that does it, by what is observed.
+    /// Quasi-Newton, and Newton once the trials show that its model pays.
+    #[default]
     Auto,
 }
 
@@ -127,7 +127,7 @@ pub struct CouplingSettings {
 impl Default for CouplingSettings {
     fn default() -> Self {
         Self {
-            method: Method::Aitken,
+            method: Method::Auto,
             reuse: 3,
             predictor: Predictor::Linear,
             tolerance: 1e-6,
