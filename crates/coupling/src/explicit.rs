@@ -64,7 +64,7 @@ impl Coupling {
         sides.train_track.restore()?;
         self.exchange.train_track(sides, &mut self.answer, false)?;
         let residual = self.residual();
-        if !(residual <= BLOWN) {
+        if residual.is_nan() || residual > BLOWN {
             return Err(IterationError::Unstable { t: sides.t, h: sides.h, rho: self.report.contraction, residual });
         }
         self.account(residual);

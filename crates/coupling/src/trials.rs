@@ -71,7 +71,7 @@ impl Coupling {
                 break (Outcome::Converged, residual);
             }
             // Also where the residual is no number any more: a square that overflows.
-            let lost = !(residual <= RUNAWAY * first.max(1.0));
+            let lost = residual.is_nan() || residual > RUNAWAY * first.max(1.0);
             if k == limit || lost {
                 break (Outcome::IterationLimit, residual);
             }
