@@ -43,13 +43,23 @@ pub enum Command {
         /// The scenario file
         scenario: PathBuf,
     },
+    /// Show what engineers check first of a bridge: mass, reactions, what is loose, lowest frequencies
+    #[command(after_help = "Exit code 2 if something is loose or forces do not balance.")]
+    InspectBridge {
+        /// A scenario, or a bridge model file
+        file: PathBuf,
+    },
     /// Make a bridge model of shells and beams, and a scenario that runs a train over it
     Generate(Generate),
     /// Print the JSON Schema of scenario files
     #[command(
         after_help = "Put it beside your scenarios and name it in them, \"$schema\": \"scenario.schema.json\": editors then complete and check."
     )]
-    Schema,
+    Schema {
+        /// That of bridge model files instead
+        #[arg(long)]
+        bridge: bool,
+    },
 }
 
 const RUN_HELP: &str = "\

@@ -14,6 +14,7 @@ mod connect;
 mod coupled;
 mod error;
 mod generate;
+mod inspect;
 mod peaks;
 mod plot;
 mod record;
@@ -56,8 +57,9 @@ fn execute(command: Command) -> Result<(), Error> {
             Ok(())
         }
         Command::Generate(arguments) => generate::generate(&arguments),
-        Command::Schema => {
-            say!("{:#}", ttb_scenario::schema());
+        Command::InspectBridge { file } => inspect::inspect(&file),
+        Command::Schema { bridge } => {
+            say!("{:#}", if bridge { ttb_scenario::model_schema() } else { ttb_scenario::schema() });
             Ok(())
         }
     }

@@ -15,7 +15,7 @@ use serde::{Deserialize, Serialize};
 use ttb_coupling::ModelError;
 use ttb_dynamics::krylov::Krylov;
 use ttb_dynamics::newmark::{Motion, Newmark};
-use ttb_dynamics::reduction::{Answers, StepMatrix, reduce};
+use ttb_dynamics::reduction::{Answers, Shifted, reduce};
 use ttb_dynamics::sparse::Pencil;
 use ttb_scenario::types::Reduction;
 
@@ -88,14 +88,49 @@ pub fn build(
     drop(full);
     let [a0, a1, ..] = newmark.a;
     let (c_k, c_m) = (1.0 + a1 * law.beta, a0 + a1 * law.alpha);
-    let step = pencil.factor(c_k, c_m, 0.0).map_err(failed)?;
-    let step = StepMatrix { factor: &step, stiffness: c_k, mass: c_m };
-    let answers = Answers::new(pencil, &stiffness, &step, rows, supports);
+    let shifted: Vec<[f64; 2]> = std::env::var("SHIFTS")
+        .unwrap_or_default()
+        .split(',')
+        .filter_map(|hz| hz.parse::<f64>().ok())
+        .map(|hz| [1.0, (hz * std::f64::consts::TAU).powi(2)])
+        .chain([[1.0, 0.0], [c_k, c_m]])
+        .collect();
+    let factors =
+        shifted.iter().map(|[c, m]| pencil.factor(*c, *m, 0.0)).collect::<Result<Vec<_>, _>>().map_err(failed)?;
+    let combinations: Vec<Shifted> =
+        factors.iter().zip(&shifted).map(|(factor, [c, m])| Shifted { factor, stiffness: *c, mass: *m }).collect();
+    let answers = Answers::new(pencil, &combinations, rows, supports);
+    drop(combinations);
+    drop(factors);
+    if std::env::var("EXPLORE").is_ok() {
+        let begin = std::time::Instant::now();
+        let mut krylov = Krylov::new(pencil, &stiffness, &rows[..supports]);
+        let ritz = krylov.modes(std::f64::consts::TAU * wish.highest_frequency.unwrap_or(FIRST), MOST);
+        eprintln!("krylov {} in {:?}", krylov.dimension(), begin.elapsed());
+        for hz in [15.0, 30.0, 45.0, 60.0] {
+            for negligible in [0.0, 1e-6, 1e-5, 1e-4] {
+                let ritz = Krylov::up_to(&ritz, hz * std::f64::consts::TAU);
+                let basis = reduce(&answers, &krylov, &ritz, rows, negligible);
+                let r = basis.omega2.len();
+                let modes = basis.modes;
+                let shared = Arc::new(Rows::Dense(basis.rows));
+                let system = Arc::new(Reduced::new(basis.omega2));
+                let stepper = Arc::clone(&system).prepare(law, newmark, &shared, supports).map_err(failed)?;
+                let begin = std::time::Instant::now();
+                let seen = probe(&*stepper, &shared, stations, system.unknowns(), newmark.h);
+                eprintln!(
+                    "{hz} Hz negligible {negligible}: modes {modes} of {r}: {:?}, probe {:?}",
+                    [0, 1].map(|i| difference(&seen[i], &truth[i])),
+                    begin.elapsed()
+                );
+            }
+        }
+    }
     let mut krylov = Krylov::new(pencil, &stiffness, &rows[..supports]);
     let mut hertz = wish.highest_frequency.unwrap_or(FIRST);
     loop {
         let ritz = krylov.modes(std::f64::consts::TAU * hertz, MOST);
-        let basis = reduce(&answers, &krylov, &ritz, rows);
+        let basis = reduce(&answers, &krylov, &ritz, rows, 1e-6);
         let modes = basis.modes;
         let pseudo_modes = basis.omega2.len() - modes;
         let rows = Rows::Dense(basis.rows);

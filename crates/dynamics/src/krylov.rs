@@ -25,7 +25,7 @@ const MUCH: f64 = 1e-4;
 /// Squares below this part of what they were before the orthogonalisation are rounding.
 const ROUNDING: f64 = 1e-22;
 /// Residual of A φ = θ φ relative to θ at which a mode is taken as found.
-const TOLERANCE: f64 = 1e-9;
+const TOLERANCE: f64 = 1e-7;
 
 /// The process; can be continued for more modes.
 pub struct Krylov<'a> {
@@ -188,6 +188,13 @@ impl<'a> Krylov<'a> {
                 return Ritz { omega2, coordinates };
             }
         }
+    }
+
+    /// Those of the modes up to a lower frequency (rad/s).
+    pub fn up_to(ritz: &Ritz, highest: f64) -> Ritz {
+        let count = ritz.omega2.partition_point(|w2| *w2 <= highest * highest);
+        let coordinates = ritz.coordinates.subcols(0, count).to_owned();
+        Ritz { omega2: ritz.omega2[..count].to_vec(), coordinates }
     }
 
     /// R Φ by rows, for sparse rows R.
