@@ -9,14 +9,18 @@ macro_rules! say {
 }
 
 mod build;
+mod check;
 mod cli;
 mod connect;
 mod error;
 mod generate;
+mod inspect;
+mod map;
 mod peaks;
 mod plot;
 mod record;
 mod run;
+mod series;
 mod summary;
 
 use std::process::ExitCode;
@@ -54,6 +58,8 @@ fn execute(command: Command) -> Result<(), Error> {
             );
             Ok(())
         }
+        Command::Check(arguments) => check::check(&arguments),
+        Command::Inspect(arguments) => inspect::inspect(&arguments),
         Command::Generate(arguments) => generate::generate(&arguments),
         Command::Schema => {
             say!("{:#}", ttb_scenario::schema());

@@ -58,7 +58,7 @@ impl Fmu {
 }
 
 /// `file:///…` of a folder, percent-encoded.
-pub(super) fn file_uri(folder: &Path) -> String {
+pub fn file_uri(folder: &Path) -> String {
     let mut uri = String::from("file://");
     for byte in folder.as_os_str().as_encoded_bytes() {
         match byte {
