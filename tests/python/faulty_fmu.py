@@ -142,11 +142,11 @@ ARCHIVE = [
     Fault("no model identifier", {"description"}, says="modelIdentifier", replace=[('modelIdentifier="faulty"', "")]),
     Fault("model identifier with ..", {"description"}, says="modelIdentifier", replace=[('r="faulty"', 'r="../../faulty"')]),
     Fault(
-        "names twice", {"duplicate-name"}, says="support[3].force", replace=[('"support[4].force"', '"support[3].force"')], code=2
+        "names twice", {"duplicate-name"}, says="support[3].force", replace=[('"support[4].force"', '"support[3].force"')]
     ),
     Fault(
         "a value reference twice",
-        {"duplicate-reference"},
+        {"duplicate-reference", "roll-back-inputs"},
         says="value reference",
         replace=[('force" valueReference="3"', 'force" valueReference="2"')],
     ),
@@ -180,7 +180,7 @@ LIBRARIES = [
     Fault("prints", {"prints"}, 0, defines=["PRINTS"]),
     Fault("prints errors", {"prints"}, 0, defines=["STDERR_CHATTER"]),
     Fault("writes files", {"writes-files"}, 0, defines=["WRITES_FILE"]),
-    Fault("state in a global", {"instances", "not-repeatable", "serialize"}, None, defines=["STATIC_STATE"]),
+    Fault("state in a global", {"instances", "not-repeatable"}, None, defines=["STATIC_STATE"]),
     Fault("reset keeps something", {"reset"}, 0, defines=["RESET_KEEPS"]),
     Fault("memory grows", {"memory-growth"}, 0, defines=["LEAKS"]),
     Fault("states leak", {"state-leak"}, 0, defines=["STATE_LEAK"]),
@@ -208,8 +208,8 @@ STATES = [
     Fault("set does nothing", {"roll-back", "derivatives", "serialize"}, None, defines=["SET_NOTHING"]),
     Fault("set forgets the velocity", {"roll-back", "derivatives", "serialize"}, None, defines=["SET_FORGETS_VELOCITY"]),
     Fault("set forgets the inputs", {"roll-back-inputs"}, 0, defines=["SET_FORGETS_INPUTS"]),
-    Fault("set forgets something hidden", {"roll-back", "serialize"}, None, defines=["HISTORY"]),
-    Fault("set works for near states", {"roll-back-later"}, 0, defines=["SET_ONLY_NEAR"]),
+    Fault("set forgets something hidden", {"roll-back", "derivatives", "serialize"}, None, defines=["HISTORY"]),
+    Fault("set works for near states", {"roll-back-later", "roll-back-inputs"}, 0, defines=["SET_ONLY_NEAR"]),
     Fault("get refuses", {"failed"}, says="no room", defines=["GET_STATE_ERROR"]),
     Fault("get disturbs", {"roll-back-save", "roll-back-first"}, None, defines=["SAVE_DISTURBS"]),
     Fault("a serialized state too small", {"serialize"}, 0, defines=["SERIALIZED_TOO_SMALL"]),

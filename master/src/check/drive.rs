@@ -108,6 +108,18 @@ fn swing(v: &ScalarVariable, d: &ModelDescription) -> (f64, f64) {
     (start, amplitude)
 }
 
+/// The plan's first steps; nothing if a second instance takes them otherwise, so that it cannot serve as a reference.
+pub fn reference(probe: &Probe, plan: &Plan, steps: usize) -> Result<Option<Vec<Vec<f64>>>, Finding> {
+    let mut first = Drive::fresh(probe, plan)?;
+    let run = first.steps(0..steps, 0.0)?;
+    first.instance.free();
+    let mut second = Drive::fresh(probe, plan)?;
+    let again = second.steps(0..steps, 0.0)?;
+    let different = second.differ(&run, &again, 1e-12);
+    second.instance.free();
+    Ok(if different.is_none() { Some(run) } else { None })
+}
+
 /// An instance on its way.
 pub struct Drive<'a> {
     pub instance: Probed<'a>,

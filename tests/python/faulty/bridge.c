@@ -191,7 +191,8 @@ int fmi2DoStep(void *c, double t, double h, int no_restore) {
     status = WARNING;
 #endif
 #ifdef LEAKS
-    memset(malloc(4096), 1, 4096);
+    static void *volatile lost;
+    lost = memset(malloc(4096), 1, 4096);
 #endif
 #ifdef STDERR_CHATTER
     fprintf(stderr, "step %g\n", t);
