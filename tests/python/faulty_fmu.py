@@ -174,6 +174,7 @@ LIBRARIES = [
     Fault("a crash without terminate", {"abort"}, 0, defines=["FREE_ONLY_AFTER_TERMINATE"]),
     Fault("no initialization", {"failed"}, says="no equilibrium", defines=["INITIALIZATION_ERROR"]),
     Fault("one form of URI", {"resource-uri"}, 0, defines=["URI_PICKY"]),
+    Fault("a crash at one form of URI", {"crash"}, 0, defines=["URI_CRASH"]),
     Fault("URI not decoded", {"resource-uri"}, 0, defines=["URI_NOT_DECODED"]),
     Fault("NULL logged", {"logger-call"}, 0, defines=["LOG_NULL"]),
     Fault("odd formats logged", {"logger-call"}, 0, defines=["LOG_FORMAT"]),

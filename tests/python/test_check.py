@@ -71,6 +71,17 @@ def test_one_line_a_finding_and_the_count_at_the_end(ttb, tmp_path, libraries):
     assert done.stderr == f"ttb: {theirs}: 1 findings\n"
 
 
+def test_a_crash_says_during_which_call(ttb, tmp_path, libraries):
+    """With what the call was made; temporary folders stay out of it."""
+    for define, call in [
+        ("URI_CRASH", "fmi2Instantiate with the resources file:/FMU/resources"),
+        ("STEP_CRASH", "fmi2DoStep from t = 0.3 s by 0.001 s"),
+        ("FREE_CRASH", "fmi2FreeInstance"),
+    ]:
+        [found] = findings(ttb, pack(Fault("", set(), defines=[define]), tmp_path, libraries), 1)
+        assert (found["name"], found["at"]) == ("crash", call)
+
+
 def test_a_file_that_is_not_there_is_bad_input(ttb):
     """No finding on the FMU."""
     for command in ("check", "inspect"):

@@ -66,7 +66,7 @@ impl Context {
         move |stage| {
             // A fixed width overwrites what was longer; a lost note is no reason to stop.
             if let Ok(file) = &file {
-                let _ = file.write_at(format!("{stage:<96}").as_bytes(), 0);
+                let _ = file.write_at(format!("{stage:<200}").as_bytes(), 0);
             }
         }
     }

@@ -46,7 +46,7 @@ impl Probe {
     /// # Errors
     /// No instance.
     pub fn instantiate(&self, birth: &Birth) -> Result<Probed<'_>, Vec<LogEntry>> {
-        (self.announce)("fmi2Instantiate");
+        (self.announce)(&format!("fmi2Instantiate with the resources {}", birth.resources));
         let log: &'static Log = Box::leak(Log::new());
         let callbacks: &'static _ = Box::leak(Box::new(fmi2CallbackFunctions {
             logger: Some(LOGGER),
