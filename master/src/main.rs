@@ -12,6 +12,7 @@ mod build;
 mod check;
 mod cli;
 mod connect;
+mod coupled;
 mod error;
 mod generate;
 mod inspect;
