@@ -24,6 +24,7 @@ First steps:
 
 Exit codes:
     0  ok
+    1  ttb check has findings
     2  bad input: every problem is listed
     3  a step did not converge
     4  an FMU failed
@@ -49,6 +50,11 @@ pub enum Command {
         /// A scenario, or a bridge model file
         file: PathBuf,
     },
+    /// Test an FMU: does it do what its description and the standard promise?
+    #[command(after_help = CHECK_HELP)]
+    Check(Check),
+    /// Show what an FMU offers and propose a map of its variables
+    Inspect(Inspect),
     /// Make a bridge model of shells and beams, and a scenario that runs a train over it
     Generate(Generate),
     /// Print the JSON Schema of scenario files
@@ -87,6 +93,40 @@ pub struct Run {
     /// No progress, no summary
     #[arg(short, long)]
     pub quiet: bool,
+}
+
+const CHECK_HELP: &str = "\
+One line a finding: error or warning, the rule's name, what is wrong, where, what was seen.
+Every test runs in a process of its own, so that a crash or a hang is a finding.
+Exit code 0 without findings, 1 with any.";
+
+/// Arguments of `ttb check`.
+#[derive(Debug, Args)]
+pub struct Check {
+    /// The FMU
+    pub fmu: PathBuf,
+    /// Print the findings as JSON
+    #[arg(long)]
+    pub json: bool,
+    /// Seconds a single call may take
+    #[arg(long, default_value_t = 30.0, value_name = "SECONDS")]
+    pub timeout: f64,
+    /// Make one of the checks in this process
+    #[arg(long, hide = true)]
+    pub worker: Option<String>,
+    /// Where it reports
+    #[arg(long, hide = true)]
+    pub report: Option<PathBuf>,
+}
+
+/// Arguments of `ttb inspect`.
+#[derive(Debug, Args)]
+pub struct Inspect {
+    /// The FMU
+    pub fmu: PathBuf,
+    /// Print only the proposed map
+    #[arg(long)]
+    pub map: bool,
 }
 
 /// Arguments of `ttb build`.

@@ -9,16 +9,20 @@ macro_rules! say {
 }
 
 mod build;
+mod check;
 mod cli;
 mod connect;
 mod coupled;
 mod error;
 mod generate;
 mod inspect;
+mod inspect_bridge;
+mod map;
 mod peaks;
 mod plot;
 mod record;
 mod run;
+mod series;
 mod summary;
 
 use std::process::ExitCode;
@@ -56,8 +60,10 @@ fn execute(command: Command) -> Result<(), Error> {
             );
             Ok(())
         }
+        Command::Check(arguments) => check::check(&arguments),
+        Command::Inspect(arguments) => inspect::inspect(&arguments),
         Command::Generate(arguments) => generate::generate(&arguments),
-        Command::InspectBridge { file } => inspect::inspect(&file),
+        Command::InspectBridge { file } => inspect_bridge::inspect(&file),
         Command::Schema { bridge } => {
             say!("{:#}", if bridge { ttb_scenario::model_schema() } else { ttb_scenario::schema() });
             Ok(())

@@ -18,11 +18,13 @@ mod state;
 mod subsystem;
 mod unpack;
 
-pub use description::{Capabilities, ModelDescription, ScalarVariable, VariableType};
+pub use description::{Capabilities, ModelDescription, ScalarVariable, Unit, VariableType};
 pub use error::FmuError;
 pub use fmu::Fmu;
+pub use fmu::file_uri;
 pub use instance::{FmuInstance, Tally};
-pub use library::{LibraryError, preload};
+pub(crate) use library::{Functions, open_library};
+pub use library::{LibraryError, library_path, platforms, preload};
 pub use messages::Message;
 pub use reader::{DescriptionError, read_description};
 pub use state::StateSlot;
