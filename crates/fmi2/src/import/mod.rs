@@ -16,9 +16,10 @@ mod messages;
 mod reader;
 mod state;
 mod subsystem;
+mod transform;
 mod unpack;
 
-pub use description::{Capabilities, ModelDescription, ScalarVariable, VariableType};
+pub use description::{Capabilities, ModelDescription, ScalarVariable, Unit, VariableType};
 pub use error::FmuError;
 pub use fmu::Fmu;
 pub use instance::{FmuInstance, Tally};
@@ -27,4 +28,5 @@ pub use messages::Message;
 pub use reader::{DescriptionError, read_description};
 pub use state::StateSlot;
 pub use subsystem::FmuSubsystem;
+pub use transform::Linear;
 pub use unpack::{Limits, UnpackError, unpack, unpack_within};
