@@ -14,11 +14,13 @@ mod connect;
 mod coupled;
 mod error;
 mod generate;
+mod job;
 mod peaks;
 mod plot;
 mod record;
 mod run;
 mod summary;
+mod system;
 
 use std::process::ExitCode;
 
@@ -53,6 +55,10 @@ fn execute(command: Command) -> Result<(), Error> {
                 scenario.display(),
                 checked.train_track.cars.len()
             );
+            Ok(())
+        }
+        Command::ExportSsp(arguments) => {
+            say!("{}", system::export(&arguments)?.display());
             Ok(())
         }
         Command::Generate(arguments) => generate::generate(&arguments),
