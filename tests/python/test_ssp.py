@@ -4,6 +4,7 @@
 """
 
 import ctypes
+import io
 import re
 import sys
 import zipfile
@@ -19,8 +20,9 @@ from spoil import DESCRIPTION
 H, STEPS, END = 1e-3, 1100, 1.1
 SSD = "SystemStructure.ssd"
 DISPLACEMENT, ACCELERATION = "point[mid].displacement", "point[mid].acceleration"
-# Largest difference to the iterated run over the largest value of that, at most: docs/guide/ssp.md.
-BOUNDS = {DISPLACEMENT: 0.005, ACCELERATION: 0.05}
+# Largest difference to the iterated run over the largest value of that, at most (docs/guide/ssp.md): at equal times; with
+# the run in one pass taken so many steps earlier, where it is late; of the largest values.
+BOUNDS = {DISPLACEMENT: (0.005, 0.5, 1e-3, 1e-4), ACCELERATION: (0.2, 1, 5e-3, 1e-3)}
 
 
 @pytest.fixture(scope="session")
@@ -116,14 +118,18 @@ def in_ecos(path):
 def test_one_pass_masters_are_as_far_from_the_iterated_run_as_the_guide_says(master, r1_ssp, r1_run):
     """Displacement and acceleration of the deck, over the whole run and at their peaks."""
     iterated = read_csv(r1_run / "results.csv")
+    times, differences = iterated["time"][1:], []
     for name, series in master(r1_ssp).items():
-        values, expected = np.array(series), iterated[name][1:]
+        values, expected, largest = np.array(series), iterated[name][1:], np.abs(iterated[name]).max()
         assert len(values) == STEPS
-        largest = np.abs(expected).max()
-        difference = np.abs(values - expected).max() / largest
-        peak = np.abs(values).max() / largest - 1.0
-        print(f"\n{master.__name__[3:]:8} {name}: {100 * difference:.4f} % at most, peak {100 * peak:+.4f} %", end="")
-        assert difference <= BOUNDS[name], name
+        at_once, late, shifted, peak = BOUNDS[name]
+        earlier = np.interp(times[:-1] + late * H, times, values)
+        found = [np.abs(values - expected).max(), np.abs(earlier - expected[:-1]).max(), np.abs(values).max() - largest]
+        found = np.array(found) / largest
+        print(f"\n{master.__name__[3:]:9} {name:24} {100 * found[0]:7.3f} %, {late} steps earlier {100 * found[1]:6.3f} %, ", end="")
+        print(f"largest value {100 * found[2]:+.4f} %", end="")
+        differences.append(np.abs(found) <= [at_once, shifted, peak])
+    assert np.all(differences)
 
 
 def foreign(ssd):
@@ -137,23 +143,17 @@ def foreign(ssd):
     ssd = ssd.replace("".join(components), bridge + components[0])
 
     def connection(match):
-        text, factor = match[0], None
-        if "].force" in text:
-            text, factor = re.sub(r'endConnector="support\[(\d+)\]\.force"', r'endConnector="F_\1"', text), -1000.0
-        elif "].displacement" in text:
-            text, factor = re.sub(r'startConnector="support\[(\d+)\]\.displacement"', r'startConnector="uz_\1"', text), 1000.0
-        if factor is None:
+        text = re.sub(r'endConnector="support\[(\d+)\]\.force"', r'endConnector="F_\1"', match[0])
+        text = re.sub(r'startConnector="support\[(\d+)\]\.displacement"', r'startConnector="uz_\1"', text)
+        if text == match[0]:
             return text
-        transformation = f'<ssc:LinearTransformation factor="{abs(factor)}"/>'
-        return text[:-2] + f">{transformation}</ssd:Connection>"
+        return text[:-2] + '><ssc:LinearTransformation factor="1000.0"/></ssd:Connection>'
 
     return re.sub(r"<ssd:Connection [^>]*/>", connection, ssd)
 
 
 def foreign_bridge(fmu):
     """Bridge.fmu under other names: F_i said to be in kN, uz_i said to be in mm."""
-    import io
-
     target = io.BytesIO()
     with zipfile.ZipFile(io.BytesIO(fmu)) as old, zipfile.ZipFile(target, "w") as new:
         for member in old.namelist():
@@ -223,7 +223,7 @@ BROKEN = {
     "nested": (swapped("</ssd:Elements>", '<ssd:System name="S"/></ssd:Elements>'), "[@name='S']: systems within systems"),
     "setting": (swapped('method="auto"', 'method="magic"'), "/Coupling/@method: "),
     "start": (swapped('startTime="0.0"', 'startTime="1"'), "/DefaultExperiment/@startTime: is 1; runs start at 0"),
-    "self": (swapped('endElement="Bridge"', 'endElement="TrainTrack"'), "Connection[1]: the component TrainTrack"),
+    "wrong way": (swapped('endElement="Bridge"', 'endElement="TrainTrack"'), "support[1].force is no input but an output"),
 }
 
 
@@ -238,8 +238,8 @@ def test_a_broken_structure_is_refused_with_its_place(ttb, r1_ssp, tmp_path, nam
 
 
 def test_all_problems_come_at_once(ttb, r1_ssp, tmp_path):
-    """Four of the table in one document."""
-    names = ["unknown component", "connector not in the FMU", "double connection", "start", "setting"]
+    """Five of the table in one document."""
+    names = ["unknown component", "connector not in the FMU", "unit unlike the FMU's", "start", "setting"]
 
     def all_of_them(ssd):
         for name in reversed(names):
@@ -249,7 +249,7 @@ def test_all_problems_come_at_once(ttb, r1_ssp, tmp_path):
     path = rewritten(r1_ssp, tmp_path / "broken.ssp", all_of_them)
     done = ttb("run", path, "-o", tmp_path / "out", expect=2)
     assert len(done.stderr.strip().splitlines()) >= len(names)
-    for place in ("Connection[1]: ", "moment" if False else "@startTime: ", "@method: ", "point[mid].m']: "):
+    for place in ("Connection[1]: ", "@startTime: ", "@method: ", "point[mid].m']: "):
         assert place in done.stderr
 
 

@@ -18,9 +18,19 @@ type Xml = Writer<Vec<u8>>;
 pub fn write(structure: &Structure) -> io::Result<String> {
     let mut xml = Writer::new_with_indent(Vec::new(), b' ', 2);
     xml.write_event(Event::Decl(BytesDecl::new("1.0", Some("UTF-8"), None)))?;
+    // All namespaces stand here: libcosim takes one declared within its annotation for a part of it.
+    let mut namespaces = vec![
+        ("xmlns:ssc".to_string(), "http://ssp-standard.org/SSP1/SystemStructureCommon"),
+        ("xmlns:ssd".to_string(), "http://ssp-standard.org/SSP1/SystemStructureDescription"),
+    ];
+    for annotation in structure.experiment.annotations.iter().filter(|a| !a.elements.is_empty()) {
+        let declared = (format!("xmlns:{}", annotation.prefix), annotation.namespace.as_str());
+        if !namespaces.contains(&declared) {
+            namespaces.push(declared);
+        }
+    }
     xml.create_element("ssd:SystemStructureDescription")
-        .with_attribute(("xmlns:ssc", "http://ssp-standard.org/SSP1/SystemStructureCommon"))
-        .with_attribute(("xmlns:ssd", "http://ssp-standard.org/SSP1/SystemStructureDescription"))
+        .with_attributes(namespaces.iter().map(|(prefix, namespace)| (prefix.as_str(), *namespace)))
         .with_attribute(("version", "1.0"))
         .with_attribute(("name", structure.name.as_str()))
         .with_attributes(structure.description.as_deref().map(|text| ("description", text)))
@@ -163,11 +173,7 @@ fn annotation(xml: &mut Xml, annotation: &Annotation) -> io::Result<()> {
 /// The elements of an annotation from the one at `depth` on.
 fn nested(xml: &mut Xml, annotation: &Annotation, depth: usize) -> io::Result<()> {
     let Some(name) = annotation.elements.get(depth) else { return Ok(()) };
-    let namespace = format!("xmlns:{}", annotation.prefix);
-    let mut element = xml.create_element(format!("{}:{name}", annotation.prefix));
-    if depth == 0 {
-        element = element.with_attribute((namespace.as_str(), annotation.namespace.as_str()));
-    }
+    let element = xml.create_element(format!("{}:{name}", annotation.prefix));
     if depth + 1 == annotation.elements.len() {
         let attributes = annotation.attributes.iter().map(|(name, value)| (name.as_str(), value.as_str()));
         element.with_attributes(attributes).write_empty()?;

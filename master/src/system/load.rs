@@ -92,8 +92,10 @@ impl Opened {
 fn open_fmus(structure: &Structure, folder: &Path, report: &mut Report) -> Result<Option<[Fmu; 2]>, Error> {
     let components = &structure.system.components;
     let paths: Vec<_> = components.iter().map(|component| folder.join(&component.source)).collect();
+    let mut missing = false;
     for (component, path) in components.iter().zip(&paths) {
         if !path.is_file() {
+            missing = true;
             report.problem(&component.place, format!("the archive has no file {}", component.source));
         }
     }
@@ -105,7 +107,7 @@ fn open_fmus(structure: &Structure, folder: &Path, report: &mut Report) -> Resul
         );
         return Ok(None);
     };
-    if !report.is_empty() {
+    if missing {
         return Ok(None);
     }
     Ok(Some([Fmu::open(first)?, Fmu::open(second)?]))
