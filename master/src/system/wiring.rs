@@ -27,6 +27,12 @@ pub struct Link {
 
 const NEWTON: [i32; 8] = [1, 1, -2, 0, 0, 0, 0, 0];
 
+/// What connections refer to, by name.
+struct Names<'a> {
+    connectors: [HashMap<&'a str, &'a Connector>; 2],
+    units: HashMap<&'a str, BaseUnit>,
+}
+
 /// One end of a connection.
 struct End<'a> {
     side: usize,
@@ -36,8 +42,12 @@ struct End<'a> {
 
 /// All connections between the two components.
 pub fn links(structure: &Structure, sides: &[Side; 2], report: &mut Report) -> Vec<Link> {
+    let names = Names {
+        connectors: sides.map(|(component, _)| component.connectors.iter().map(|c| (c.name.as_str(), c)).collect()),
+        units: structure.units.iter().map(|unit| (unit.name.as_str(), unit.base)).collect(),
+    };
     for (component, description) in sides {
-        connectors(structure, component, description, report);
+        connectors(&names, component, description, report);
     }
     let mut driven: HashMap<(usize, &str), &str> = HashMap::new();
     let mut links = Vec::new();
@@ -53,8 +63,8 @@ pub fn links(structure: &Structure, sides: &[Side; 2], report: &mut Report) -> V
             }
             continue;
         };
-        let start = find(structure, sides, (start, &connection.start.1), "output", place, report);
-        let end = find(structure, sides, (end, &connection.end.1), "input", place, report);
+        let start = find(&names, sides, (start, &connection.start.1), "output", place, report);
+        let end = find(&names, sides, (end, &connection.end.1), "input", place, report);
         let (Some(start), Some(end)) = (start, end) else { continue };
         if start.side == end.side {
             report.problem(place, "connects a component with itself");
@@ -71,7 +81,7 @@ pub fn links(structure: &Structure, sides: &[Side; 2], report: &mut Report) -> V
 }
 
 /// Connectors that the FMU has not, or has as something else.
-fn connectors(structure: &Structure, component: &Component, description: &ModelDescription, report: &mut Report) {
+fn connectors(names: &Names, component: &Component, description: &ModelDescription, report: &mut Report) {
     for connector in &component.connectors {
         let Some(variable) = description.variable(&connector.name) else {
             report.problem(&connector.place, format!("{} has no variable of this name", component.source));
@@ -90,13 +100,13 @@ fn connectors(structure: &Structure, component: &Component, description: &ModelD
             );
         }
         if let Some(Type::Real(Some(unit))) = &connector.kind_of_value {
-            let here = structure.units.iter().find(|known| known.name == *unit);
+            let here = names.units.get(unit.as_str());
             let there = variable.unit.as_ref().and_then(|name| unit_of(description, name));
             match (here, there) {
                 (None, _) => {
                     report.problem(&connector.place, format!("the unit {unit} is not among the structure's Units"))
                 }
-                (Some(here), Some(there)) if here.base != there => {
+                (Some(here), Some(there)) if *here != there => {
                     let name = variable.unit.as_deref().unwrap_or_default();
                     report.problem(&connector.place, format!("is in {unit} here, but in {name} in the FMU"));
                 }
@@ -113,7 +123,7 @@ fn unit_of(description: &ModelDescription, name: &str) -> Option<BaseUnit> {
 
 /// An end of a connection, or a problem.
 fn find<'a>(
-    structure: &Structure,
+    names: &Names,
     sides: &[Side<'a>; 2],
     (element, connector): (&str, &str),
     causality: &str,
@@ -124,8 +134,8 @@ fn find<'a>(
         report.problem(place, format!("there is no component {element}"));
         return None;
     };
-    let (component, description) = sides[side];
-    let declared: Option<&Connector> = component.connectors.iter().find(|known| known.name == connector);
+    let description = sides[side].1;
+    let declared = names.connectors[side].get(connector);
     let (Some(declared), variable) = (declared, description.variable(connector)) else {
         report.problem(place, format!("the component {element} has no connector {connector}"));
         return None;
@@ -141,7 +151,7 @@ fn find<'a>(
         return None;
     }
     let declared = match &declared.kind_of_value {
-        Some(Type::Real(Some(unit))) => structure.units.iter().find(|known| known.name == *unit).map(|unit| unit.base),
+        Some(Type::Real(Some(unit))) => names.units.get(unit.as_str()).copied(),
         _ => None,
     };
     let own = || variable.unit.as_ref().and_then(|name| unit_of(description, name));
