@@ -67,7 +67,7 @@ fn main() {
 fn settings(limit: usize, method: Method) -> Settings {
     Settings {
         method,
-        reuse: 3,
+        reuse: 2,
         predictor: Predictor::Constant,
         tolerance: 1e-10,
         force_scale: 1e-3,

@@ -68,7 +68,7 @@ pub(crate) fn relaxation(omega: f64, before: &[f64], after: &[f64]) -> f64 {
         product += p * change;
         square += change * change;
     }
-    let next = if square > 0.0 { -omega * product / square } else { omega };
+    let next = if square > 0.0 { omega * (-product / square) } else { omega };
     next.clamp(0.05, 1.0)
 }
 

@@ -102,7 +102,7 @@ impl Coupling {
         let wave = |i: usize| scale * shape(i);
         let seed: Vec<f64> = (0..trial.len()).map(|i| share * wave(i)).collect();
         let mut change = vec![0.0; motion.len()];
-        sides.bridge.derivative(&seed, &mut change)?;
+        let derived = sides.bridge.derivative(&seed, &mut change);
         let probe: Vec<f64> = trial.iter().enumerate().map(|(i, t)| t + wave(i)).collect();
         sides.bridge.restore()?;
         self.exchange.bridge(sides, self.forces.now(), &probe, true)?;
@@ -114,7 +114,7 @@ impl Coupling {
             let whole: f64 = range.map(|i| seen(i).powi(2)).sum();
             off <= CREDIBLE * CREDIBLE * whole
         };
-        let holds = near(0..half) && near(half..motion.len());
+        let holds = derived.is_ok() && near(0..half) && near(half..motion.len());
         sides.bridge.restore()?;
         self.exchange.bridge(sides, self.forces.now(), trial, true)?;
         self.report.identification_trials += 1;

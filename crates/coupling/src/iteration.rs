@@ -43,6 +43,8 @@ pub struct Coupling {
     /// G(λ), the answer of the train–track subsystem.
     pub(crate) answer: Vec<f64>,
     pub(crate) residual: Vec<f64>,
+    /// Trials begun in the iteration at hand.
+    pub(crate) made: usize,
     pub(crate) strategy: Strategy,
     pub(crate) report: Report,
     pub(crate) explicit: Explicit,
@@ -59,6 +61,7 @@ impl Coupling {
             lambda: zero(),
             answer: zero(),
             residual: zero(),
+            made: 0,
             strategy: Strategy::new(forces, &settings),
             report: Report::default(),
             explicit: Explicit::default(),
@@ -182,13 +185,22 @@ impl Coupling {
         }
         self.strategy.begin_step(sides.h);
         let limit = self.settings.max_iterations;
-        let info = self.iterate(sides, Mode::RollBack, limit)?;
-        if info.outcome == Outcome::Converged || self.settings.method == Method::FixedPoint {
-            return Ok(info);
-        }
+        let plain = self.settings.method == Method::FixedPoint;
+        let (info, wild) = match self.iterate(sides, Mode::RollBack, limit) {
+            Ok(info) if info.outcome == Outcome::Converged || plain => return Ok(info),
+            Ok(info) => (info, None),
+            // Not the step is impossible, but forces that were tried on the way.
+            Err(wild @ (IterationError::Subsystem(_) | IterationError::NotFinite { .. }))
+                if self.made > 1 && !plain =>
+            {
+                let (iterations, roll_backs) = (self.made, self.made - 1);
+                (StepInfo { iterations, roll_backs, train_track_trials: iterations, ..StepInfo::default() }, Some(wild))
+            }
+            Err(error) => return Err(error),
+        };
         self.forces.predict(self.settings.predictor, sides.h, &mut self.lambda);
-        self.strategy.begin_rescue();
-        let rescued = self.iterate(sides, Mode::RollBack, limit)?;
+        self.strategy.begin_rescue(self.report.contraction);
+        let rescued = self.iterate(sides, Mode::RollBack, limit).map_err(|error| wild.unwrap_or(error))?;
         Ok(StepInfo {
             iterations: info.iterations + rescued.iterations,
             train_track_trials: info.train_track_trials + rescued.train_track_trials,

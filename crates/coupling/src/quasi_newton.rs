@@ -74,6 +74,11 @@ impl QuasiNewton {
         self.trials = 0;
     }
 
+    /// Sets ω of the next update.
+    pub fn relax(&mut self, omega: f64) {
+        self.omega = omega.clamp(0.05, 1.0);
+    }
+
     /// The change since the last trial becomes the newest column.
     fn learn(&mut self, lambda: &[f64], residual: &[f64]) {
         if self.trials > 0 {

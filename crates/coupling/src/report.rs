@@ -144,18 +144,21 @@ impl std::fmt::Display for IterationError {
                 advise(f, *h, info, *rho)
             }
             Self::Unstable { t, h, rho, residual } => {
-                write!(
-                    f,
-                    "the bridge cannot save and restore its state, and without that the coupling is not stable: "
-                )?;
+                write!(f, "the bridge cannot save and restore its state, and without that the coupling ")?;
                 match rho {
                     Some(rho) if *residual == 0.0 => {
                         let (most, enough) = (crate::explicit::STABLE, h * (crate::explicit::STABLE / rho).sqrt());
-                        write!(f, "ρ = {rho:.2}, at most {most} is possible (about that with h = {enough:.1e} s)")?;
+                        write!(
+                            f,
+                            "is not stable: ρ = {rho:.2}; {most} is possible, about that with h = {enough:.1e} s"
+                        )?;
                     }
-                    _ => write!(f, "in the step from t = {t} s (h = {h} s) forces disagree by {residual:.1e}")?,
+                    _ => write!(
+                        f,
+                        "is not stable, or too coarse: forces disagree by {residual:.1e} in the step from t = {t} s (h = {h} s)"
+                    )?,
                 }
-                write!(f, "; use a smaller step, or a bridge FMU with canGetAndSetFMUstate")
+                write!(f, ". Use a smaller step, or a bridge FMU with canGetAndSetFMUstate")
             }
             Self::NotFinite { t, side, index, value } => write!(
                 f,

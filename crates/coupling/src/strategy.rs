@@ -123,11 +123,15 @@ impl Strategy {
         self.acceleration().begin_step();
     }
 
-    /// Begins the step once more with the most robust method: quasi-Newton with an empty memory.
-    pub fn begin_rescue(&mut self) {
+    /// Begins the step once more with the most robust method: quasi-Newton with an empty memory, its first update
+    /// relaxed by 1/(1 + ρ).
+    pub fn begin_rescue(&mut self, rho: Option<f64>) {
         self.now = Method::IqnIls;
         self.end_static();
         self.acceleration().begin_step();
+        if let (Some(quasi), Some(rho)) = (&mut self.quasi, rho) {
+            quasi.relax(1.0 / (1.0 + rho));
+        }
     }
 
     pub fn update(&mut self, lambda: &mut [f64], residual: &[f64], size: f64) {

@@ -52,6 +52,7 @@ impl Coupling {
     pub(crate) fn iterate(&mut self, sides: &mut Sides, mode: Mode, limit: usize) -> Result<StepInfo, IterationError> {
         let (mut k, mut alone, mut spared, mut first) = (0, 0, 0, 0.0);
         let (outcome, residual) = loop {
+            self.made = k + 1;
             match mode {
                 Mode::Equilibrium => self.exchange.equilibrium(sides, &self.lambda, &mut self.answer)?,
                 Mode::OnePass => {
@@ -70,7 +71,7 @@ impl Coupling {
                 break (Outcome::Converged, residual);
             }
             // Also where the residual is no number any more: a square that overflows.
-            let lost = !(residual <= RUNAWAY * first.max(1.0));
+            let lost = residual.is_nan() || residual > RUNAWAY * first.max(1.0);
             if k == limit || lost {
                 break (Outcome::IterationLimit, residual);
             }

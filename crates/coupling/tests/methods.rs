@@ -123,3 +123,19 @@ fn infinity_is_caught_at_its_step_with_subsystem_and_index() {
     let value = f64::INFINITY;
     assert_eq!(stopped, Err(IterationError::NotFinite { t: 4.0 * H, side: Side::Bridge, index: 3, value }));
 }
+
+#[test]
+fn forces_that_no_subsystem_can_bear_on_the_way_do_not_end_the_run_but_a_step_that_cannot_be_done_does() {
+    let (mut train_track, mut bridge) = pair(5.0, 0.0);
+    let mut coupling = Coupling::new(N, 2 * N, settings(Method::Aitken));
+    train_track.at_rest = true;
+    coupling.initialise(&mut train_track, &mut bridge, 0.0).expect("equilibrium");
+    train_track.at_rest = false;
+    // Aitken's second trial is the whole load, 100; the answer is a sixth of it.
+    bridge.strongest = 60.0;
+    let info = coupling.step(&mut train_track, &mut bridge, 0.0, H).expect("rescued");
+    assert_eq!((info.outcome, info.rescues), (Outcome::Converged, 1));
+    bridge.strongest = -1.0;
+    let failed = coupling.step(&mut train_track, &mut bridge, H, H);
+    assert!(matches!(failed, Err(IterationError::Subsystem(_))), "{failed:?}");
+}

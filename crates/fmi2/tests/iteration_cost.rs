@@ -94,7 +94,7 @@ fn no_method_allocates_in_a_step() {
         bridge.rolls_back = method != Method::Explicit;
         let settings = Settings {
             method,
-            reuse: 3,
+            reuse: 2,
             predictor: Predictor::Linear,
             tolerance: 1e-6,
             force_scale: 100.0,

@@ -23,6 +23,8 @@ pub struct Side {
     pub derives: bool,
     /// See `derives`.
     pub lie: f64,
+    /// Refuses to step with an input above this.
+    pub strongest: f64,
     /// Output number 3 is infinite from this time on.
     pub infinite_from: f64,
     input: Vec<f64>,
@@ -38,8 +40,23 @@ pub fn pair(rho: f64, curvature: f64) -> (Side, Side) {
         let (inputs, outputs) = if is_bridge { (N, 2 * N) } else { (2 * N, N) };
         let (input, rate, output, saved) =
             (vec![0.0; inputs], vec![0.0; inputs], vec![0.0; outputs], vec![0.0; outputs]);
-        let (at_rest, derives, lie, infinite_from, time) = (false, false, 1.0, f64::INFINITY, 0.0);
-        Side { rho, curvature, is_bridge, at_rest, derives, lie, infinite_from, input, rate, output, saved, time }
+        let (at_rest, derives, lie, strongest, time) = (false, false, 1.0, f64::INFINITY, 0.0);
+        let infinite_from = f64::INFINITY;
+        Side {
+            rho,
+            curvature,
+            is_bridge,
+            at_rest,
+            derives,
+            lie,
+            strongest,
+            infinite_from,
+            input,
+            rate,
+            output,
+            saved,
+            time,
+        }
     };
     (side(false), side(true))
 }
@@ -115,6 +132,9 @@ impl Subsystem for Side {
         Ok(())
     }
     fn step(&mut self, t: f64, h: f64, _may_restore: bool) -> Result<(), Failure> {
+        if self.input.iter().zip(&self.rate).any(|(v, r)| v + h * r > self.strongest) {
+            return Err(Failure { subsystem: "side".into(), message: "it is too much".into() });
+        }
         self.time = t + h;
         self.refresh(h);
         Ok(())

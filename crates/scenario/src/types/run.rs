@@ -128,7 +128,7 @@ impl Default for CouplingSettings {
     fn default() -> Self {
         Self {
             method: Method::Auto,
-            reuse: 3,
+            reuse: 2,
             predictor: Predictor::Linear,
             tolerance: 1e-6,
             max_iterations: 30,
