@@ -34,11 +34,14 @@ Exit codes:
 /// The commands.
 #[derive(Debug, Subcommand)]
 pub enum Command {
-    /// Run a scenario: build its FMUs, couple them, write results
+    /// Run a scenario: build its FMUs, couple them, write results. Or run a system structure (.ssp)
     #[command(after_help = RUN_HELP)]
     Run(Run),
     /// Only build TrainTrack.fmu and Bridge.fmu
     Build(Build),
+    /// Write a scenario as a system structure (SSP 1.0): both FMUs, connections and coupling settings in one file
+    #[command(after_help = EXPORT_HELP)]
+    ExportSsp(ExportSsp),
     /// Check a scenario and print all its problems
     CheckScenario {
         /// The scenario file
@@ -76,10 +79,25 @@ The output folder gets
   results.svg      deck, cars and wheels over time
   *.fmu            the two FMUs that were run";
 
+const EXPORT_HELP: &str = "\
+FMPy, ecos, libcosim and other importers of SSP 1.0 simulate the file, in one pass a step; `ttb run FILE.ssp` iterates
+and gives the results of the scenario. The settings of the iteration stand in the annotation org.ttb.coupling
+(docs/guide/ssp.md).";
+
+/// Arguments of `ttb export-ssp`.
+#[derive(Debug, Args)]
+pub struct ExportSsp {
+    /// The scenario file [default: the bundled ICE 3 over a cable-stayed bridge]
+    pub scenario: Option<PathBuf>,
+    /// The file to write [default: the scenario's name with .ssp, in this folder]
+    #[arg(short, long, value_name = "FILE.ssp")]
+    pub output: Option<PathBuf>,
+}
+
 /// Arguments of `ttb run`.
 #[derive(Debug, Args)]
 pub struct Run {
-    /// The scenario file [default: the bundled ICE 3 over a cable-stayed bridge]
+    /// The scenario file, or a system structure of two FMUs, FILE.ssp [default: the bundled ICE 3 over a cable-stayed bridge]
     pub scenario: Option<PathBuf>,
     /// Folder for the results
     #[arg(short, long, default_value = "ttb-out")]

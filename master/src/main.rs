@@ -17,6 +17,7 @@ mod error;
 mod generate;
 mod inspect;
 mod inspect_bridge;
+mod job;
 mod map;
 mod peaks;
 mod plot;
@@ -24,6 +25,7 @@ mod record;
 mod run;
 mod series;
 mod summary;
+mod system;
 
 use std::process::ExitCode;
 
@@ -62,6 +64,10 @@ fn execute(command: Command) -> Result<(), Error> {
         }
         Command::Check(arguments) => check::check(&arguments),
         Command::Inspect(arguments) => inspect::inspect(&arguments),
+        Command::ExportSsp(arguments) => {
+            say!("{}", system::export(&arguments)?.display());
+            Ok(())
+        }
         Command::Generate(arguments) => generate::generate(&arguments),
         Command::InspectBridge { file } => inspect_bridge::inspect(&file),
         Command::Schema { bridge } => {

@@ -16,6 +16,7 @@ mod messages;
 mod reader;
 mod state;
 mod subsystem;
+mod transform;
 mod unpack;
 
 pub use description::{Capabilities, ModelDescription, ScalarVariable, Unit, VariableType};
@@ -29,4 +30,5 @@ pub use messages::Message;
 pub use reader::{DescriptionError, read_description};
 pub use state::StateSlot;
 pub use subsystem::FmuSubsystem;
+pub use transform::Linear;
 pub use unpack::{Limits, UnpackError, unpack, unpack_within};
