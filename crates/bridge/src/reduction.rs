@@ -26,10 +26,12 @@ use crate::rows::Rows;
 use crate::system::{Base, Law, Step, System, Work};
 
 /// First highest frequency that is tried, Hz, and the factor to the next.
-const FIRST: f64 = 60.0;
+const FIRST: f64 = 30.0;
 const NEXT: f64 = 1.4;
 /// No basis grows beyond so many vectors.
-const MOST: usize = 2400;
+const MOST: usize = 1600;
+/// Pseudo-modes with a smaller share in every compliance are left out.
+const NEGLIGIBLE: f64 = 1e-6;
 /// Steps of the probe.
 const PROBE: usize = 240;
 
@@ -88,49 +90,22 @@ pub fn build(
     drop(full);
     let [a0, a1, ..] = newmark.a;
     let (c_k, c_m) = (1.0 + a1 * law.beta, a0 + a1 * law.alpha);
-    let shifted: Vec<[f64; 2]> = std::env::var("SHIFTS")
-        .unwrap_or_default()
-        .split(',')
-        .filter_map(|hz| hz.parse::<f64>().ok())
-        .map(|hz| [1.0, (hz * std::f64::consts::TAU).powi(2)])
-        .chain([[1.0, 0.0], [c_k, c_m]])
-        .collect();
-    let factors =
-        shifted.iter().map(|[c, m]| pencil.factor(*c, *m, 0.0)).collect::<Result<Vec<_>, _>>().map_err(failed)?;
-    let combinations: Vec<Shifted> =
-        factors.iter().zip(&shifted).map(|(factor, [c, m])| Shifted { factor, stiffness: *c, mass: *m }).collect();
-    let answers = Answers::new(pencil, &combinations, rows, supports);
-    drop(combinations);
-    drop(factors);
-    if std::env::var("EXPLORE").is_ok() {
-        let begin = std::time::Instant::now();
-        let mut krylov = Krylov::new(pencil, &stiffness, &rows[..supports]);
-        let ritz = krylov.modes(std::f64::consts::TAU * wish.highest_frequency.unwrap_or(FIRST), MOST);
-        eprintln!("krylov {} in {:?}", krylov.dimension(), begin.elapsed());
-        for hz in [15.0, 30.0, 45.0, 60.0] {
-            for negligible in [0.0, 1e-6, 1e-5, 1e-4] {
-                let ritz = Krylov::up_to(&ritz, hz * std::f64::consts::TAU);
-                let basis = reduce(&answers, &krylov, &ritz, rows, negligible);
-                let r = basis.omega2.len();
-                let modes = basis.modes;
-                let shared = Arc::new(Rows::Dense(basis.rows));
-                let system = Arc::new(Reduced::new(basis.omega2));
-                let stepper = Arc::clone(&system).prepare(law, newmark, &shared, supports).map_err(failed)?;
-                let begin = std::time::Instant::now();
-                let seen = probe(&*stepper, &shared, stations, system.unknowns(), newmark.h);
-                eprintln!(
-                    "{hz} Hz negligible {negligible}: modes {modes} of {r}: {:?}, probe {:?}",
-                    [0, 1].map(|i| difference(&seen[i], &truth[i])),
-                    begin.elapsed()
-                );
-            }
-        }
-    }
-    let mut krylov = Krylov::new(pencil, &stiffness, &rows[..supports]);
     let mut hertz = wish.highest_frequency.unwrap_or(FIRST);
+    // Between statics and a step, on a logarithmic scale.
+    let between = std::f64::consts::TAU * hertz * (c_m / c_k).sqrt();
+    let answers = {
+        let shifts = [[1.0, 0.0], [1.0, between], [c_k, c_m]];
+        let factors = shifts.iter().map(|[c_k, c_m]| pencil.factor(*c_k, *c_m, 0.0)).collect::<Result<Vec<_>, _>>();
+        let factors = factors.map_err(failed)?;
+        let shifted = factors.iter().zip(shifts);
+        let combinations: Vec<Shifted> =
+            shifted.map(|(factor, [stiffness, mass])| Shifted { factor, stiffness, mass }).collect();
+        Answers::new(pencil, &combinations, rows, supports)
+    };
+    let mut krylov = Krylov::new(pencil, &stiffness, &rows[..supports]);
     loop {
         let ritz = krylov.modes(std::f64::consts::TAU * hertz, MOST);
-        let basis = reduce(&answers, &krylov, &ritz, rows, 1e-6);
+        let basis = reduce(&answers, &krylov, &ritz, rows, NEGLIGIBLE);
         let modes = basis.modes;
         let pseudo_modes = basis.omega2.len() - modes;
         let rows = Rows::Dense(basis.rows);

@@ -190,13 +190,6 @@ impl<'a> Krylov<'a> {
         }
     }
 
-    /// Those of the modes up to a lower frequency (rad/s).
-    pub fn up_to(ritz: &Ritz, highest: f64) -> Ritz {
-        let count = ritz.omega2.partition_point(|w2| *w2 <= highest * highest);
-        let coordinates = ritz.coordinates.subcols(0, count).to_owned();
-        Ritz { omega2: ritz.omega2[..count].to_vec(), coordinates }
-    }
-
     /// R Φ by rows, for sparse rows R.
     pub fn seen(&self, ritz: &Ritz, rows: &[Vec<(u32, f64)>]) -> Mat<f64> {
         let p = ritz.coordinates.nrows();
