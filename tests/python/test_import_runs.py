@@ -1,0 +1,57 @@
+"""Bridges imported from CalculiX and OpenSees under R1's train: what the beam of R1 answers."""
+
+import json
+
+import pandas
+import pytest
+from importing import recipe
+
+FILES = {
+    "calculix": {
+        "stiffness": "bridge.sti",
+        "mass": "bridge.mas",
+        "dofs": "bridge.dof",
+        "nodes": "nodes.csv",
+        "supports": "supports.csv",
+        "points": "points.csv",
+    },
+    "opensees": {
+        "stiffness": "K.mtx",
+        "mass": "M.mtx",
+        "dofs": "dofs.csv",
+        "supports": "supports.csv",
+        "points": "points.csv",
+    },
+}
+
+
+@pytest.fixture(scope="module", params=FILES)
+def imported(request, examples, tmp_path_factory):
+    """A folder with the matrices and R1's scenario over them."""
+    folder = tmp_path_factory.mktemp(request.param)
+    recipe(request.param).write(folder)
+    scenario = json.loads((examples / "r1.json").read_text())
+    scenario["bridge"]["structure"] = {"type": "matrices", "files": FILES[request.param], "length": 32.5}
+    scenario["bridge"]["points"] = []
+    (folder / "scenario.json").write_text(json.dumps(scenario))
+    return folder
+
+
+def test_the_train_feels_the_beam_of_r1(imported, ttb, examples):
+    """issue: the same train response as the built-in elements within 0.5 %; here at every instant, of the peak."""
+    ttb("run", imported / "scenario.json", "-o", imported / "out", "--quiet")
+    ttb("run", examples / "r1.json", "-o", imported / "r1", "--quiet")
+    theirs, ours = (pandas.read_csv(imported / run / "results.csv") for run in ("out", "r1"))
+    for name in ("point[mid].displacement", "wheel[1].contact_force", "wheel[4].contact_force", "car[1].acceleration"):
+        worst = (theirs[name] - ours[name]).abs().max() / ours[name].abs().max()
+        print(f"{name}: {worst:.1e}")
+        assert worst < 0.005, name
+    name = "point[mid].acceleration"
+    assert theirs[name].max() == pytest.approx(ours[name].max(), rel=0.01)
+
+
+def test_a_look_at_the_bridge_shows_its_frequencies(imported, ttb):
+    """The first is that of the beam, 5.7199 Hz."""
+    shown = ttb("inspect-bridge", imported / "scenario.json").stdout
+    line = next(line for line in shown.splitlines() if line.startswith("lowest frequencies"))
+    assert float(line.split()[2].rstrip(",")) == pytest.approx(5.7199, rel=1e-3)
