@@ -6,7 +6,7 @@ use super::instance::FmuInstance;
 use super::library::Functions;
 use super::reader::read_description;
 use super::unpack::unpack;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use tempfile::TempDir;
 
@@ -17,9 +17,26 @@ pub struct Fmu {
 }
 
 /// What an instance needs to stay: first the library is closed, then its folder removed.
-pub(super) struct Loaded {
+pub(crate) struct Loaded {
     pub functions: Functions,
-    pub folder: TempDir,
+    pub folder: Folder,
+}
+
+/// Where an FMU is unpacked.
+pub(crate) enum Folder {
+    /// Removed with this.
+    Ours(TempDir),
+    /// Another process looks after it.
+    Theirs(PathBuf),
+}
+
+impl Folder {
+    pub fn path(&self) -> &Path {
+        match self {
+            Self::Ours(folder) => folder.path(),
+            Self::Theirs(folder) => folder,
+        }
+    }
 }
 
 impl Fmu {
@@ -35,7 +52,10 @@ impl Fmu {
         let description = description.map_err(|source| FmuError::Description { fmu: fmu(), source })?;
         let functions = Functions::load(folder.path(), &description.co_simulation.model_identifier);
         let functions = functions.map_err(|source| FmuError::Library { fmu: fmu(), source })?;
-        Ok(Self { description: Arc::new(description), loaded: Arc::new(Loaded { functions, folder }) })
+        Ok(Self {
+            description: Arc::new(description),
+            loaded: Arc::new(Loaded { functions, folder: Folder::Ours(folder) }),
+        })
     }
 
     /// What the FMU says of itself.
@@ -53,7 +73,7 @@ impl Fmu {
     /// # Errors
     /// The FMU gives none.
     pub fn instantiate(&self, name: &str, logging: bool) -> Result<FmuInstance, FmuError> {
-        FmuInstance::new(name, self.description.clone(), self.loaded.clone(), logging)
+        FmuInstance::local(name, self.description.clone(), self.loaded.clone(), logging)
     }
 }
 

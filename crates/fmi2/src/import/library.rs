@@ -1,5 +1,6 @@
 //! The shared library of an FMU: loaded, its functions bound once.
 
+use super::slave::Optional;
 use crate::types::*;
 use libloading::os::unix::{Library, RTLD_GLOBAL, RTLD_LOCAL, RTLD_NOW};
 use std::ffi::{CStr, c_char};
@@ -65,7 +66,7 @@ macro_rules! functions {
     (required { $($field:ident: fn($($argument:ty),*) $(-> $result:ty)? = $symbol:literal;)* }
      optional { $($optional:ident: fn($($optional_argument:ty),*) -> $optional_result:ty = $optional_symbol:literal;)* }) => {
         /// The functions of a loaded FMU; they stay callable as long as this struct lives.
-        pub(super) struct Functions {
+        pub(crate) struct Functions {
             $(pub $field: unsafe extern "C" fn($($argument),*) $(-> $result)?,)*
             $(pub $optional: Option<unsafe extern "C" fn($($optional_argument),*) -> $optional_result>,)*
             _library: Library,
@@ -122,6 +123,24 @@ optional {
 }
 
 impl Functions {
+    /// The set of optional functions that are there, by their bits.
+    pub fn optional(&self) -> u64 {
+        let there = |is: bool, function: Optional| if is { function.bit() } else { 0 };
+        there(self.get_integer.is_some(), Optional::GetInteger)
+            | there(self.get_boolean.is_some(), Optional::GetBoolean)
+            | there(self.get_string.is_some(), Optional::GetString)
+            | there(self.set_integer.is_some(), Optional::SetInteger)
+            | there(self.set_boolean.is_some(), Optional::SetBoolean)
+            | there(self.set_string.is_some(), Optional::SetString)
+            | there(self.set_input_derivatives.is_some(), Optional::SetInputDerivatives)
+            | there(self.get_state.is_some(), Optional::GetState)
+            | there(self.set_state.is_some(), Optional::SetState)
+            | there(self.free_state.is_some(), Optional::FreeState)
+            | there(self.serialized_size.is_some() && self.serialize_state.is_some(), Optional::Serialize)
+            | there(self.deserialize_state.is_some(), Optional::Deserialize)
+            | there(self.directional_derivative.is_some(), Optional::DirectionalDerivative)
+    }
+
     /// Loads the library of an unpacked FMU. RTLD_NOW: a symbol that is nowhere shows here, not in the middle of a run.
     pub fn load(folder: &Path, model_identifier: &str) -> Result<Self, LibraryError> {
         use ttb_model_description::package::{LIBRARY_EXTENSION, PLATFORM};
