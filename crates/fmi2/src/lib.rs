@@ -7,4 +7,6 @@
 pub mod export;
 #[cfg(feature = "import")]
 pub mod import;
+#[cfg(feature = "import")]
+pub mod isolate;
 pub mod types;

@@ -31,6 +31,9 @@ pub enum LibraryError {
     /// Another FMI version than the description's.
     #[error("the library implements FMI {0:?}, not 2.0")]
     Version(String),
+    /// Any of these, in the process of an isolated FMU.
+    #[error("{0}")]
+    Isolated(String),
 }
 
 /// The library of an FMU built with PythonFMU takes its Python from the process.

@@ -8,7 +8,7 @@
 mod access;
 mod decode;
 pub mod description;
-mod error;
+pub(crate) mod error;
 pub(crate) mod fmu;
 mod instance;
 pub(crate) mod library;
