@@ -6,11 +6,13 @@ use std::path::Path;
 use ttb_coupling::iteration::{OnFailure, Settings};
 use ttb_coupling::predictor::Predictor;
 use ttb_coupling::{Coupling, Subsystem};
-use ttb_fmi2::import::{Fmu, FmuInstance, FmuSubsystem, ModelDescription, VariableType};
+use ttb_fmi2::import::{FmuInstance, FmuSubsystem, ModelDescription, VariableType};
+use ttb_fmi2::isolate::Isolation;
 use ttb_scenario::Checked;
 use ttb_scenario::types::{Method, OnFailure as Policy, Predictor as First, Send};
 
 use crate::error::Error;
+use crate::isolate::{self, Isolated};
 
 /// Both FMUs in initialization mode, and their coupling.
 pub struct Connected {
@@ -25,10 +27,10 @@ pub struct Connected {
 }
 
 /// Loads both FMUs, enters initialization mode, connects.
-pub fn connect(train_track: &Path, bridge: &Path, checked: &Checked) -> Result<Connected, Error> {
+pub fn connect(train_track: &Path, bridge: &Path, checked: &Checked, isolated: &Isolated) -> Result<Connected, Error> {
     let end = checked.train_track.end;
-    let train_track = instantiate(train_track, "TrainTrack", end)?;
-    let bridge = instantiate(bridge, "Bridge", end)?;
+    let train_track = instantiate(train_track, "TrainTrack", end, isolated.train_track.as_ref())?;
+    let bridge = instantiate(bridge, "Bridge", end, isolated.bridge.as_ref())?;
     let forces = shared(train_track.description(), bridge.description());
     let motions = shared(bridge.description(), train_track.description());
     let mut warnings = checked.warnings.clone();
@@ -74,8 +76,8 @@ pub fn connect(train_track: &Path, bridge: &Path, checked: &Checked) -> Result<C
     Ok(Connected { train_track, bridge, coupling, warnings })
 }
 
-fn instantiate(path: &Path, name: &str, end: f64) -> Result<FmuInstance, Error> {
-    let mut instance = Fmu::open(path)?.instantiate(name, false)?;
+fn instantiate(path: &Path, name: &str, end: f64, isolation: Option<&Isolation>) -> Result<FmuInstance, Error> {
+    let mut instance = isolate::open(path, isolation)?.instantiate(name, false)?;
     instance.setup_experiment(0.0, Some(end))?;
     instance.enter_initialization()?;
     Ok(instance)

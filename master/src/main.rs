@@ -13,6 +13,7 @@ mod cli;
 mod connect;
 mod error;
 mod generate;
+mod isolate;
 mod peaks;
 mod plot;
 mod record;
@@ -55,6 +56,7 @@ fn execute(command: Command) -> Result<(), Error> {
             Ok(())
         }
         Command::Generate(arguments) => generate::generate(&arguments),
+        Command::Host => ttb_fmi2::isolate::host().map_err(Error::Input),
         Command::Schema => {
             say!("{:#}", ttb_scenario::schema());
             Ok(())

@@ -15,6 +15,7 @@ use crate::build;
 use crate::cli::Run;
 use crate::connect::{Connected, connect};
 use crate::error::Error;
+use crate::isolate::Isolated;
 use crate::peaks::Peaks;
 use crate::plot::Plot;
 use crate::record::Recorder;
@@ -25,6 +26,11 @@ const PROGRESS: u64 = 50;
 
 /// The command.
 pub fn run(arguments: &Run) -> Result<(), Error> {
+    let isolated = Isolated::new(arguments)?;
+    run_isolated(arguments, &isolated).map_err(|error| isolated.advise(error, arguments))
+}
+
+fn run_isolated(arguments: &Run, isolated: &Isolated) -> Result<(), Error> {
     let checked = build::scenario(arguments.scenario.as_deref())?;
     for given in [&arguments.train_track, &arguments.bridge].into_iter().flatten() {
         std::fs::File::open(given).map_err(|e| Error::Input(format!("{}: {e}", given.display())))?;
@@ -35,7 +41,7 @@ pub fn run(arguments: &Run) -> Result<(), Error> {
     let bridge = arguments.bridge.clone().map_or_else(|| build::bridge(&checked, folder), Ok)?;
     let stop = stop_on_interrupt();
     let begin = Instant::now();
-    let mut connected = connect(&train_track, &bridge, &checked)?;
+    let mut connected = connect(&train_track, &bridge, &checked, isolated)?;
     for warning in &connected.warnings[checked.warnings.len()..] {
         eprintln!("ttb: warning: {warning}");
     }
