@@ -228,6 +228,37 @@ fn coupled_it_names_what_fails() {
 }
 
 #[test]
+fn setting_goes_with_the_next_call_and_fails_under_its_own_name() {
+    let (fmu, _) = isolated(&capable(), 10.0);
+    let mut i = begin(&fmu, "good").unwrap();
+    i.set_real(&[0, 1], &[1.0, 2.0]).unwrap();
+    i.set_real(&[6], &[1.0]).unwrap(); // there is none
+    assert_eq!(
+        i.do_step(0.0, 0.1, true).unwrap_err().to_string(),
+        "good: fmi2SetReal answered fmi2Error and logged nothing"
+    );
+    assert_eq!(i.tally().steps, 1);
+    // More than can be posted, more lists than are kept, and more values than there was room for.
+    let mut i = begin(&fmu, "good").unwrap();
+    for n in (1..30).chain([30_000]) {
+        let references: Vec<u32> = (0..n).map(|k| (k + n) % 3).collect();
+        i.set_real(&references, &vec![f64::from(n); n as usize]).unwrap();
+        i.set_input_derivatives(&references, &vec![1; n as usize], &vec![2.0 * f64::from(n); n as usize]).unwrap();
+    }
+    i.do_step(0.0, 1.0, true).unwrap();
+    let mut values = [0.0; 6];
+    i.get_real(&[0, 1, 2, 3, 4, 5], &mut values).unwrap();
+    assert_eq!(values, [30_000.0, 30_000.0, 30_000.0, 60_000.0, 60_000.0, 60_000.0]);
+    let mut i = begin(&fmu, "crash-on-set").unwrap();
+    i.do_step(0.0, 0.5, true).unwrap();
+    i.set_real(&[0], &[1.0]).unwrap();
+    i.set_input_derivatives(&[0], &[1], &[1.0]).unwrap();
+    let error = i.do_step(0.5, 0.5, true).unwrap_err().to_string();
+    let how = "its process was killed by signal 11 (SIGSEGV)";
+    assert_eq!(error, format!("crash-on-set: fmi2SetRealInputDerivatives at t = 0.5 s: {how}"));
+}
+
+#[test]
 fn an_fmu_that_cannot_be_loaded_says_why() {
     let xml = description(3, CAPABLE);
     let made = fmu(&[("modelDescription.xml", xml.as_bytes()), ("binaries/linux64/Foreign.so", b"not ELF")]);

@@ -141,11 +141,11 @@ impl FmuInstance {
         self.time = t;
         match self.run("fmi2DoStep", |slave| slave.do_step(t, h, may_restore)) {
             Ok(()) => self.time = t + h,
-            Err(FmuError::Call { instance, status, messages, .. }) => {
+            Err(FmuError::Call { instance, call, status, messages }) if call == "fmi2DoStep" => {
                 let call = format!("fmi2DoStep from t = {t} s by {h} s");
                 return Err(FmuError::Call { instance, call, status, messages });
             }
-            Err(FmuError::Gone { instance, how, messages, .. }) => {
+            Err(FmuError::Gone { instance, call, how, messages }) if call.starts_with("fmi2DoStep") => {
                 let call = format!("fmi2DoStep from t = {t} s by {h} s");
                 return Err(FmuError::Gone { instance, call, how, messages });
             }
@@ -193,6 +193,7 @@ impl FmuInstance {
         let answer = work(&mut *self.slave);
         self.slave.collect(&self.sink);
         self.tally.time += answer.time;
+        self.tally.warnings += u64::from(answer.warnings);
         if answer.status == Status::Ok as fmi2Status {
             return Ok(());
         }
@@ -210,7 +211,8 @@ impl FmuInstance {
     }
 
     #[cold]
-    fn not_ok(&mut self, call: &str, status: Status, mark: u64) -> Result<(), FmuError> {
+    fn not_ok(&mut self, call: &'static str, status: Status, mark: u64) -> Result<(), FmuError> {
+        let call = self.slave.blame().unwrap_or(call);
         if let Some(how) = self.slave.death() {
             self.health = Health::Gone;
             let (instance, how, messages) = (self.name.clone(), how.to_string(), self.sink.since(mark));

@@ -12,11 +12,13 @@ use std::time::Duration;
 pub(crate) struct Answer {
     pub status: fmi2Status,
     pub time: Duration,
+    /// Earlier calls that answered fmi2Warning only now.
+    pub warnings: u32,
 }
 
 impl Answer {
     /// The answer of a function that is not there; callers look at [`Slave::has`] first.
-    pub const NOTHING: Self = Self { status: Status::Error as fmi2Status, time: Duration::ZERO };
+    pub const NOTHING: Self = Self { status: Status::Error as fmi2Status, time: Duration::ZERO, warnings: 0 };
 }
 
 /// Declares [`Optional`] from one table.
@@ -59,7 +61,8 @@ optional! {
 pub(crate) type Handle = usize;
 
 /// An instance as its functions. Slices that belong together are of equal length; functions that [`Slave::has`] denies are
-/// not called. After [`Slave::free_instance`] nothing is.
+/// not called. After [`Slave::free_instance`] nothing is. Setting values and states may be answered before it is done: what it
+/// comes to, the next call says.
 pub(crate) trait Slave: Send {
     /// Whether the library has a function.
     fn has(&self, function: Optional) -> bool;
@@ -92,6 +95,11 @@ pub(crate) trait Slave: Send {
 
     /// Hands over what was logged since, if it does not reach the sink by itself.
     fn collect(&mut self, _sink: &Sink) {}
+
+    /// The earlier call that a failure belongs to, if it was answered before it was made; asked for once.
+    fn blame(&mut self) -> Option<&'static str> {
+        None
+    }
 
     /// How the FMU's process came to its end, if it did.
     fn death(&self) -> Option<&str> {

@@ -4,7 +4,7 @@
 macro_rules! operations {
     ($($(#[$doc:meta])* $name:ident,)*) => {
         /// What the master asks of the host. `numbers` are the request's arguments in order; results are the reply's numbers
-        /// from the second on. A *list* is the number of a list of references in the payload.
+        /// from the second on. The last argument of a request with values is the place of the first one in the data. A *list* is the number of a list of references in the payload.
         #[derive(Clone, Copy, Debug, PartialEq, Eq)]
         #[repr(u32)]
         pub enum Op { $($(#[$doc])* $name,)* }
@@ -28,6 +28,8 @@ operations! {
     Grow,
     /// The bytes of the result before, which did not fit, into the data.
     Fetch,
+    /// Only the posted requests.
+    Flush,
     /// Nothing follows.
     Quit,
     /// Numbers: start, whether there is a stop, stop.
@@ -69,4 +71,17 @@ operations! {
     Serialize,
     /// Numbers: handle, length. Data: the bytes. Result: handle.
     Deserialize,
+}
+
+impl Op {
+    /// The function behind a request that may be posted: one that gives nothing back and whose values the host may read
+    /// later.
+    pub fn posted_function(self) -> Option<&'static str> {
+        match self {
+            Self::SetReal => Some("fmi2SetReal"),
+            Self::SetInputDerivatives => Some("fmi2SetRealInputDerivatives"),
+            Self::SetState => Some("fmi2SetFMUstate"),
+            _ => None,
+        }
+    }
 }

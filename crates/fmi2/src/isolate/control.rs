@@ -27,9 +27,28 @@ pub struct Side {
     pub parked: AtomicU32,
     /// A request's [`super::call::Op`], a reply's status.
     pub code: AtomicU32,
-    unused: u32,
-    /// Arguments or results; a reply's first is the time inside the FMU in ns.
+    /// A request's number of posted requests, a reply's number of warnings they gave.
+    pub posted: AtomicU32,
+    /// Arguments or results; a reply's are the time inside the FMU in ns, the result, and where it is ([`progress`]).
     pub numbers: [AtomicU64; 6],
+}
+
+/// Place of a reply's progress among its numbers.
+pub const PROGRESS: usize = 2;
+/// Requests that can be posted to go with the next one.
+pub const POSTED: usize = 8;
+
+/// A request that waits for the next one.
+#[repr(C)]
+pub struct Posted {
+    pub code: AtomicU32,
+    unused: u32,
+    pub numbers: [AtomicU64; 6],
+}
+
+/// What the host is at: request `n`, its posted request `i` or, behind them, itself.
+pub fn progress(n: u32, i: usize) -> u64 {
+    u64::from(n) << 8 | i as u64
 }
 
 /// The first page.
@@ -39,6 +58,8 @@ pub struct Header {
     pub request: Side,
     /// Written by the host.
     pub reply: Side,
+    /// Written by the master.
+    pub posted: [Posted; POSTED],
     /// Messages the FMU has logged so far.
     logged: AtomicU64,
     mark: AtomicU64,

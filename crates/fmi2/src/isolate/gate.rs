@@ -2,8 +2,8 @@
 //!
 //! A reply that is there within microseconds is met spinning, without a system call on either side. Whoever has spun for
 //! [`SPIN`] in vain says so (`parked`) and sleeps on a futex; only then does the other need a system call to wake it. On few
-//! cores the spinning takes time from the very process that is waited for, hence the short limit; where spinning has
-//! not helped [`HOPE`] times in a row it is tried only every [`HOPE`]th time, and with one core never.
+//! cores the spinning takes time from the very process that is waited for, hence the short limit; while it helps in
+//! less than half of the cases it is tried only every [`RARELY`]th time, and with one core never.
 
 use super::control::{Control, Side};
 use rustix::fs::Timespec;
@@ -15,22 +15,24 @@ use std::time::{Duration, Instant};
 const SPIN: Duration = Duration::from_micros(20);
 /// Looks at the word between two looks at the clock.
 const LOOKS: usize = 32;
-/// Times in a row that spinning may be in vain.
-const HOPE: u32 = 16;
+/// How seldom hopeless spinning is tried.
+const RARELY: u32 = 16;
 
 /// One process's end.
 pub struct Gate {
     control: Control,
     is_master: bool,
     may_spin: bool,
-    in_vain: u32,
+    waits: u32,
+    /// Share of waits that spinning has ended, a running mean over about 16 of them.
+    luck: f32,
 }
 
 impl Gate {
     /// The end of the master or the host.
     pub fn new(control: Control, is_master: bool) -> Self {
         let may_spin = std::thread::available_parallelism().is_ok_and(|cores| cores.get() > 1);
-        Self { control, is_master, may_spin, in_vain: 0 }
+        Self { control, is_master, may_spin, waits: 0, luck: 1.0 }
     }
 
     /// What this process writes.
@@ -71,26 +73,33 @@ impl Gate {
             let _ = futex::wait(&theirs.word, futex::Flags::empty(), seen, limit.as_ref());
         }
         mine.parked.store(0, Relaxed);
-        theirs.word.load(Acquire) == n
+        self.has_come(n)
+    }
+
+    fn has_come(&self, n: u32) -> bool {
+        self.theirs().word.load(Acquire) == n
     }
 
     fn spin(&mut self, n: u32) -> bool {
-        let word = &self.theirs().word;
-        if word.load(Acquire) == n {
+        if self.has_come(n) {
+            self.luck += (1.0 - self.luck) / 16.0;
             return true;
         }
-        let hopeless = self.in_vain >= HOPE && !self.in_vain.is_multiple_of(HOPE);
+        self.waits = self.waits.wrapping_add(1);
+        if !self.may_spin || self.luck < 0.5 && !self.waits.is_multiple_of(RARELY) {
+            return false;
+        }
         let (mut come, begin) = (false, Instant::now());
-        while self.may_spin && !hopeless && !come && begin.elapsed() < SPIN {
+        while !come && begin.elapsed() < SPIN {
             for _ in 0..LOOKS {
                 std::hint::spin_loop();
-                come = word.load(Acquire) == n;
+                come = self.has_come(n);
                 if come {
                     break;
                 }
             }
         }
-        self.in_vain = if come { 0 } else { self.in_vain.wrapping_add(1).max(1) };
+        self.luck += (f32::from(u8::from(come)) - self.luck) / 16.0;
         come
     }
 }

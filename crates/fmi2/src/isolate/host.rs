@@ -1,7 +1,7 @@
 //! The FMU's end: a loop that takes requests from shared memory and makes the calls.
 
 use super::call::Op;
-use super::control::{CONTROL, Control, Ring};
+use super::control::{CONTROL, Control, POSTED, PROGRESS, Ring, progress};
 use super::gate::Gate;
 use super::memory::{Payload, from_list, is_ours};
 use crate::import::fmu::{Folder, Loaded};
@@ -89,15 +89,7 @@ impl Host {
         loop {
             n = n.wrapping_add(1);
             while !self.gate.wait(n, None) {}
-            let theirs = self.gate.theirs();
-            let op = Op::from_code(theirs.code.load(Relaxed));
-            let numbers = std::array::from_fn(|i| theirs.numbers[i].load(Relaxed));
-            let reply = op.and_then(|op| self.answer(op, numbers));
-            let mine = self.gate.mine();
-            let (answer, [result]) = reply.unwrap_or((Answer { status: NO_SENSE as i32, time: Duration::ZERO }, [0]));
-            mine.code.store(answer.status as u32, Relaxed);
-            mine.numbers[0].store(answer.time.as_nanos() as u64, Relaxed);
-            mine.numbers[1].store(result, Relaxed);
+            let op = self.request(n);
             if op == Some(Op::Quit) {
                 // The library is closed before the answer: should that fail, it is seen.
                 self.slave = None;
@@ -109,9 +101,43 @@ impl Host {
         }
     }
 
+    /// Answers request `n`: first what was posted with it, up to the first failure, then itself.
+    fn request(&mut self, n: u32) -> Option<Op> {
+        let control = self.control.clone();
+        let (theirs, mine) = (&control.header().request, &control.header().reply);
+        let posted = (theirs.posted.load(Relaxed) as usize).min(POSTED);
+        let (mut time, mut warnings) = (Duration::ZERO, 0);
+        let mut last = (None, Answer { status: NO_SENSE as i32, time, warnings }, 0);
+        for i in 0..=posted {
+            mine.numbers[PROGRESS].store(progress(n, i), Relaxed);
+            let (code, numbers) = match control.header().posted[..posted].get(i) {
+                Some(posted) => (&posted.code, &posted.numbers),
+                None => (&theirs.code, &theirs.numbers),
+            };
+            let op = Op::from_code(code.load(Relaxed));
+            let numbers = std::array::from_fn(|i| numbers[i].load(Relaxed));
+            let reply = op.and_then(|op| self.answer(op, numbers));
+            let (answer, [result]) =
+                reply.unwrap_or((Answer { status: NO_SENSE as i32, time: Duration::ZERO, warnings: 0 }, [0]));
+            time += answer.time;
+            last = (op, answer, result);
+            match Status::from_c(answer.status) {
+                Status::Ok => {}
+                Status::Warning => warnings += u32::from(i < posted),
+                _ => break,
+            }
+        }
+        let (op, answer, result) = last;
+        mine.code.store(answer.status as u32, Relaxed);
+        mine.posted.store(warnings, Relaxed);
+        mine.numbers[0].store(time.as_nanos() as u64, Relaxed);
+        mine.numbers[1].store(result, Relaxed);
+        op
+    }
+
     /// What an operation answers; nothing if it made no sense at this point.
     fn answer(&mut self, op: Op, a: [u64; 6]) -> Option<Reply> {
-        let fine = |status: Status| Answer { status: status as i32, time: Duration::ZERO };
+        let fine = |status: Status| Answer { status: status as i32, time: Duration::ZERO, warnings: 0 };
         let at = |i: usize| a[i] as usize;
         match op {
             Op::Load => return Some(self.load(at(0), at(1))),
@@ -126,7 +152,7 @@ impl Host {
                 self.payload.write_bytes(0, &self.bytes);
                 return Some((fine(Status::Ok), [0]));
             }
-            Op::Quit => return Some((fine(Status::Ok), [0])),
+            Op::Flush | Op::Quit => return Some((fine(Status::Ok), [0])),
             _ => {}
         }
         let (slave, payload) = (self.slave.as_mut()?, &mut self.payload);
@@ -146,20 +172,20 @@ impl Host {
                 fine(Status::Ok)
             }
             Op::GetReal => {
-                let ([list, _], values) = payload.in_place([(at(0), at(1)), (0, 0)], at(1));
+                let ([list, _], values) = payload.in_place([(at(0), at(1)), (0, 0)], at(5), at(1));
                 slave.get_real(list, values)
             }
             Op::SetReal => {
-                let ([list, _], values) = payload.in_place([(at(0), at(1)), (0, 0)], at(1));
+                let ([list, _], values) = payload.in_place([(at(0), at(1)), (0, 0)], at(5), at(1));
                 slave.set_real(list, values)
             }
             Op::SetInputDerivatives => {
-                let ([list, orders], values) = payload.in_place([(at(0), at(1)), (at(2), at(1))], at(1));
+                let ([list, orders], values) = payload.in_place([(at(0), at(1)), (at(2), at(1))], at(5), at(1));
                 slave.set_input_derivatives(list, from_list(orders), values)
             }
             Op::DirectionalDerivative => {
                 let lists = [(at(0), at(1)), (at(2), at(3))];
-                let ([unknown, known], values) = payload.in_place(lists, at(1) + at(3));
+                let ([unknown, known], values) = payload.in_place(lists, 0, at(1) + at(3));
                 let (seed, out) = values.split_at_mut(at(3));
                 slave.directional_derivative(unknown, known, seed, out)
             }
@@ -204,7 +230,7 @@ impl Host {
                 result = handle as u64;
                 answer
             }
-            Op::Load | Op::Instantiate | Op::Grow | Op::Fetch | Op::Quit => return None,
+            Op::Load | Op::Instantiate | Op::Grow | Op::Fetch | Op::Flush | Op::Quit => return None,
         };
         Some((answer, [result]))
     }
@@ -226,7 +252,7 @@ impl Host {
                 (Status::Error, self.bytes.len() as u64)
             }
         };
-        (Answer { status: status as i32, time: begin.elapsed() }, [result])
+        (Answer { status: status as i32, time: begin.elapsed(), warnings: 0 }, [result])
     }
 
     fn instantiate(&mut self, name: usize, guid: usize, logging: bool) -> Option<Reply> {
@@ -236,6 +262,6 @@ impl Host {
         let (slave, time) = Local::new(&name, &guid, Arc::clone(self.loaded.as_ref()?), ring, logging);
         let status = if slave.is_some() { Status::Ok } else { Status::Error } as i32;
         self.slave = slave;
-        Some((Answer { status, time }, [0]))
+        Some((Answer { status, time, warnings: 0 }, [0]))
     }
 }

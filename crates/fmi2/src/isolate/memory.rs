@@ -61,7 +61,7 @@ pub fn grow(file: impl AsFd, length: usize) -> io::Result<()> {
 }
 
 /// Number of lists of value references that are kept in the payload.
-pub const LISTS: usize = 4;
+pub const LISTS: usize = 8;
 
 /// The part that grows with what a call carries: a few lists of value references, then values.
 pub struct Payload {
@@ -129,11 +129,11 @@ impl Payload {
         bytes
     }
 
-    /// Two lists, as number and length, and `count` numbers in place, while the other process waits.
-    pub fn in_place(&mut self, lists: [(usize, usize); 2], count: usize) -> ([&[u32]; 2], &mut [f64]) {
+    /// Two lists, as number and length, and `count` numbers from item `first` on in place, while the other process waits.
+    pub fn in_place(&mut self, lists: [(usize, usize); 2], first: usize, count: usize) -> ([&[u32]; 2], &mut [f64]) {
         // SAFETY: the items lie there, and the master, which waits for our answer, does not write them.
         let lists = lists.map(|(list, n)| unsafe { std::slice::from_raw_parts(self.list_at(list, n).cast_const(), n) });
-        let place = self.data_at(0, 8 * count).cast::<f64>();
+        let place = self.data_at(8 * first, 8 * count).cast::<f64>();
         // SAFETY: `count` numbers lie there, aligned, behind the lists; the master does not touch them now.
         (lists, unsafe { std::slice::from_raw_parts_mut(place, count) })
     }

@@ -2,7 +2,7 @@
 
 use super::Isolation;
 use super::call::Op;
-use super::control::{CONTROL, Control};
+use super::control::{CONTROL, Control, POSTED, PROGRESS, progress};
 use super::gate::Gate;
 use super::memory::{LISTS, Payload, create, grow, to_list};
 use super::process::Process;
@@ -45,16 +45,25 @@ pub(crate) struct Remote {
     payload: Payload,
     lists: [List; LISTS],
     calls: u64,
+    /// Requests that go with the next one, and the numbers they occupy in the data.
+    posted: [Option<Op>; POSTED],
+    filled: usize,
+    owed_time: Duration,
+    owed_warnings: u32,
     functions: u64,
     collected: u64,
     death: Option<String>,
+    /// The posted request that failed.
+    blamed: Option<&'static str>,
     process: Process,
     /// Last: the folder goes after the process.
     _folder: Arc<TempDir>,
 }
 
 /// What a call answers when nobody is there.
-const GONE: Answer = Answer { status: Status::Fatal as fmi2Status, time: Duration::ZERO };
+const GONE: Answer = Answer { status: Status::Fatal as fmi2Status, time: Duration::ZERO, warnings: 0 };
+/// What a posted request answers.
+const POSTPONED: Answer = Answer { status: Status::Ok as fmi2Status, time: Duration::ZERO, warnings: 0 };
 
 impl Remote {
     /// Starts the process, loads the library there and instantiates; the time is that inside the FMU.
@@ -111,9 +120,14 @@ impl Remote {
             payload,
             lists: Default::default(),
             calls: 0,
+            posted: [None; POSTED],
+            filled: 0,
+            owed_time: Duration::ZERO,
+            owed_warnings: 0,
             functions: 0,
             collected: 0,
             death: None,
+            blamed: None,
             process,
             _folder: folder,
         })
@@ -126,18 +140,57 @@ impl Remote {
         }
         self.calls += 1;
         let n = self.calls as u32;
+        let posted = std::mem::take(&mut self.posted);
+        let count = posted.iter().flatten().count();
+        self.filled = 0;
         let mine = self.gate.mine();
+        mine.posted.store(count as u32, Relaxed);
         mine.code.store(op as u32, Relaxed);
         mine.numbers.iter().zip(numbers).for_each(|(place, number)| place.store(*number, Relaxed));
         self.gate.signal(n);
-        if !self.gate.wait(n, Some(LOOKS[0])) && !self.wait_long(n) {
+        let come = self.gate.wait(n, Some(LOOKS[0])) || self.wait_long(n);
+        let theirs = self.gate.theirs();
+        let (status, warnings) = (theirs.code.load(Relaxed) as fmi2Status, theirs.posted.load(Relaxed));
+        if count > 0 && (!come || status > Status::Warning as fmi2Status) {
+            let reached = theirs.numbers[PROGRESS].load(Relaxed);
+            let at = (0..count).find(|i| progress(n, *i) == reached);
+            self.blamed = at.and_then(|i| posted[i]).and_then(Op::posted_function);
+        }
+        if !come {
             return GONE;
         }
-        let theirs = self.gate.theirs();
-        Answer {
-            status: theirs.code.load(Relaxed) as fmi2Status,
-            time: Duration::from_nanos(theirs.numbers[0].load(Relaxed)),
+        let time = Duration::from_nanos(theirs.numbers[0].load(Relaxed)) + std::mem::take(&mut self.owed_time);
+        Answer { status, time, warnings: warnings + std::mem::take(&mut self.owed_warnings) }
+    }
+
+    /// Leaves a request for the next one to take along: it saves the way there and back. `values` lie in the data from
+    /// [`Remote::filled`] on.
+    fn post(&mut self, op: Op, numbers: &[u64], values: usize) -> Answer {
+        if self.death.is_some() {
+            return GONE;
         }
+        let Some(i) = self.posted.iter().position(Option::is_none) else {
+            return self.call(op, numbers);
+        };
+        self.posted[i] = Some(op);
+        let place = &self.control.header().posted[i];
+        place.code.store(op as u32, Relaxed);
+        place.numbers.iter().zip(numbers).for_each(|(place, number)| place.store(*number, Relaxed));
+        self.filled += values;
+        POSTPONED
+    }
+
+    /// Makes the posted requests now; what they cost is counted with the next call.
+    fn flushed(&mut self) -> Result<(), Answer> {
+        if self.posted[0].is_none() {
+            return if self.death.is_some() { Err(GONE) } else { Ok(()) };
+        }
+        let answer = self.call(Op::Flush, &[]);
+        if answer.status > Status::Warning as fmi2Status {
+            return Err(answer);
+        }
+        (self.owed_time, self.owed_warnings) = (answer.time, answer.warnings);
+        Ok(())
     }
 
     /// Whether the reply has come; if not, the process is dead.
@@ -165,8 +218,8 @@ impl Remote {
 
     /// A request with texts, their lengths and one more number.
     fn send(&mut self, op: Op, texts: &[&[u8]; 2], number: u64) -> Answer {
-        if !self.reserve(0, texts[0].len() + texts[1].len()) {
-            return GONE;
+        if let Err(failed) = self.reserve(0, texts[0].len() + texts[1].len()) {
+            return failed;
         }
         self.payload.write_bytes(0, texts[0]);
         self.payload.write_bytes(texts[0].len(), texts[1]);
@@ -181,18 +234,26 @@ impl Remote {
     /// The bytes whose length is the reply's result.
     fn fetch(&mut self) -> Vec<u8> {
         let length = self.result();
-        if length > LARGEST || !self.reserve(0, length as usize) {
+        if length > LARGEST || self.reserve(0, length as usize).is_err() {
             return Vec::new();
         }
         let fetched = self.call(Op::Fetch, &[]);
         if fetched.status == 0 { self.payload.read_bytes(0, length as usize) } else { Vec::new() }
     }
 
-    /// Makes room; without it the FMU is given up.
-    fn reserve(&mut self, items: usize, bytes: usize) -> bool {
+    /// Makes room, behind the values of posted requests or without them; fails as they do, or if there is none.
+    fn reserve_behind(&mut self, items: usize, values: usize) -> Result<(), Answer> {
+        let (has_items, has_bytes) = self.payload.room();
+        let fits = items <= has_items && 8 * (self.filled + values) <= has_bytes;
+        if fits && self.death.is_none() { Ok(()) } else { self.reserve(items, 8 * values) }
+    }
+
+    /// Makes room for bytes and makes the posted requests; fails as they do, or if there is none: the FMU is then given up.
+    fn reserve(&mut self, items: usize, bytes: usize) -> Result<(), Answer> {
+        self.flushed()?;
         let (has_items, has_bytes) = self.payload.room();
         if items <= has_items && bytes <= has_bytes {
-            return self.death.is_none();
+            return Ok(());
         }
         let more = |wanted: usize, has: usize| if wanted > has { wanted.next_power_of_two().max(2) } else { has };
         let (items, bytes) = (more(items, has_items), more(bytes, has_bytes));
@@ -203,13 +264,22 @@ impl Remote {
             Err(error) => {
                 self.process.finish();
                 self.death = Some(format!("was given up: no shared memory for its values: {error}"));
-                return false;
+                return Err(GONE);
             }
         }
-        self.call(Op::Grow, &[items as u64, bytes as u64]).status == 0
+        let grown = self.call(Op::Grow, &[items as u64, bytes as u64]);
+        if grown.status == Status::Ok as fmi2Status { Ok(()) } else { Err(grown) }
     }
 
-    /// Number of the list with these items, which is sent if the host does not have it.
+    /// Numbers of the lists with these items, which are sent if the host does not have them. Those of posted requests stay.
+    fn lists(&mut self, items: [&[u32]; 2]) -> Result<[u64; 2], Answer> {
+        let busy = self.lists.iter().filter(|list| list.used > self.calls).count();
+        if busy + 2 > LISTS {
+            self.flushed()?;
+        }
+        Ok(items.map(|items| self.list(items)))
+    }
+
     fn list(&mut self, items: &[u32]) -> u64 {
         let known = self.lists.iter().position(|list| list.items == items);
         let place = known.unwrap_or_else(|| {
@@ -228,6 +298,16 @@ impl Remote {
     fn one(&mut self, op: Op, reference: u32, value: u64) -> Answer {
         self.call(op, &[u64::from(reference), value])
     }
+}
+
+/// What a request needs before it can be made, or the answer.
+macro_rules! some {
+    ($result:expr) => {
+        match $result {
+            Ok(value) => value,
+            Err(answer) => return answer,
+        }
+    };
 }
 
 impl Slave for Remote {
@@ -271,38 +351,31 @@ impl Slave for Remote {
 
     fn get_real(&mut self, references: &[u32], values: &mut [f64]) -> Answer {
         let n = references.len();
-        if !self.reserve(n, 8 * n) {
-            return GONE;
-        }
-        let list = self.list(references);
-        let answer = self.call(Op::GetReal, &[list, n as u64]);
-        self.payload.read(0, values);
+        let list = self.reserve_behind(n, n).and_then(|()| self.lists([references; 2]));
+        let [list, _] = some!(list);
+        let first = self.filled;
+        let answer = self.call(Op::GetReal, &[list, n as u64, 0, 0, 0, first as u64]);
+        self.payload.read(first, values);
         answer
     }
     fn set_real(&mut self, references: &[u32], values: &[f64]) -> Answer {
         let n = references.len();
-        if !self.reserve(n, 8 * n) {
-            return GONE;
-        }
-        let list = self.list(references);
-        self.payload.write(0, values);
-        self.call(Op::SetReal, &[list, n as u64])
+        let list = self.reserve_behind(n, n).and_then(|()| self.lists([references; 2]));
+        let [list, _] = some!(list);
+        self.payload.write(self.filled, values);
+        self.post(Op::SetReal, &[list, n as u64, 0, 0, 0, self.filled as u64], n)
     }
     fn set_input_derivatives(&mut self, references: &[u32], orders: &[i32], values: &[f64]) -> Answer {
         let n = references.len();
-        if !self.reserve(n, 8 * n) {
-            return GONE;
-        }
-        let (list, orders) = (self.list(references), self.list(to_list(orders)));
-        self.payload.write(0, values);
-        self.call(Op::SetInputDerivatives, &[list, n as u64, orders])
+        let lists = self.reserve_behind(n, n).and_then(|()| self.lists([references, to_list(orders)]));
+        let [list, orders] = some!(lists);
+        self.payload.write(self.filled, values);
+        self.post(Op::SetInputDerivatives, &[list, n as u64, orders, 0, 0, self.filled as u64], n)
     }
     fn directional_derivative(&mut self, unknown: &[u32], known: &[u32], seed: &[f64], out: &mut [f64]) -> Answer {
         let (n, m) = (unknown.len(), known.len());
-        if !self.reserve(n.max(m), 8 * (n + m)) {
-            return GONE;
-        }
-        let (unknown, known) = (self.list(unknown), self.list(known));
+        let lists = self.reserve(n.max(m), 8 * (n + m)).and_then(|()| self.lists([unknown, known]));
+        let [unknown, known] = some!(lists);
         self.payload.write(0, seed);
         let answer = self.call(Op::DirectionalDerivative, &[unknown, n as u64, known, m as u64]);
         self.payload.read(m, out);
@@ -330,20 +403,20 @@ impl Slave for Remote {
         self.one(Op::SetBoolean, reference, u64::from(value))
     }
     fn set_string(&mut self, reference: u32, value: &str) -> Answer {
-        if !self.reserve(0, value.len()) {
-            return GONE;
-        }
+        some!(self.reserve(0, value.len()));
         self.payload.write_bytes(0, value.as_bytes());
         self.one(Op::SetString, reference, value.len() as u64)
     }
 
     fn get_state(&mut self, handle: &mut Handle) -> Answer {
         let answer = self.call(Op::GetState, &[*handle as u64]);
-        *handle = self.result() as Handle;
+        if self.blamed.is_none() && self.death.is_none() {
+            *handle = self.result() as Handle;
+        }
         answer
     }
     fn set_state(&mut self, handle: Handle) -> Answer {
-        self.call(Op::SetState, &[handle as u64])
+        self.post(Op::SetState, &[handle as u64], 0)
     }
     fn free_state(&mut self, handle: &mut Handle) -> Answer {
         let answer = self.call(Op::FreeState, &[*handle as u64]);
@@ -356,9 +429,7 @@ impl Slave for Remote {
         if self.death.is_some() { GONE } else { answer }
     }
     fn deserialize(&mut self, bytes: &[u8], handle: &mut Handle) -> Answer {
-        if !self.reserve(0, bytes.len()) {
-            return GONE;
-        }
+        some!(self.reserve(0, bytes.len()));
         self.payload.write_bytes(0, bytes);
         let answer = self.call(Op::Deserialize, &[*handle as u64, bytes.len() as u64]);
         *handle = self.result() as Handle;
@@ -372,6 +443,10 @@ impl Slave for Remote {
             (first..logged).for_each(|n| sink.push(self.control.message(n)));
             self.collected = logged;
         }
+    }
+
+    fn blame(&mut self) -> Option<&'static str> {
+        self.blamed.take()
     }
 
     fn death(&self) -> Option<&str> {
