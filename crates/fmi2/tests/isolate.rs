@@ -259,6 +259,43 @@ fn setting_goes_with_the_next_call_and_fails_under_its_own_name() {
 }
 
 #[test]
+fn outputs_that_come_with_a_step_are_those_after_it() {
+    let made = capable();
+    let run = |fmu: &Fmu| {
+        let mut i = begin(fmu, "good").unwrap();
+        let slot = i.new_slot();
+        let (mut said, mut three, mut one) = (Vec::new(), [0.0; 3], [0.0]);
+        for n in 0..20 {
+            let t = f64::from(n);
+            i.save(&slot).unwrap();
+            for trial in 0..3 {
+                i.restore(&slot).unwrap();
+                i.set_real(&[0, 1, 2], &[t, f64::from(trial), -t]).unwrap();
+                i.do_step(t, 1.0, true).unwrap();
+                // Mostly the same outputs, sometimes others, or none, or after something else.
+                match n % 5 {
+                    3 => i.get_real(&[4], &mut one).unwrap(),
+                    4 if trial == 1 => i.set_real(&[1], &[9.0]).unwrap(),
+                    _ => i.get_real(&[3, 4, 5], &mut three).unwrap(),
+                }
+                said.extend(three.iter().chain(&one).copied());
+            }
+            i.get_real(&[3, 4, 5], &mut three).unwrap();
+            i.get_real(&[1], &mut one).unwrap();
+            said.extend(three.iter().chain(&one).copied());
+        }
+        said
+    };
+    assert_eq!(run(&Fmu::open(&made.path).unwrap()), run(&isolated(&made, 10.0).0));
+    // A crash while they are read is not the step's.
+    let mut i = begin(&isolated(&made, 10.0).0, "crash-on-get").unwrap();
+    i.do_step(0.0, 0.25, true).unwrap();
+    i.get_real(&[3], &mut [0.0]).unwrap();
+    let error = i.do_step(0.25, 0.25, true).unwrap_err().to_string();
+    assert_eq!(error, "crash-on-get: fmi2GetReal at t = 0.25 s: its process was killed by signal 11 (SIGSEGV)");
+}
+
+#[test]
 fn an_fmu_that_cannot_be_loaded_says_why() {
     let xml = description(3, CAPABLE);
     let made = fmu(&[("modelDescription.xml", xml.as_bytes()), ("binaries/linux64/Foreign.so", b"not ELF")]);

@@ -36,7 +36,8 @@ operations! {
     SetupExperiment,
     EnterInitialization,
     ExitInitialization,
-    /// Numbers: t, h, whether a restore may follow.
+    /// Numbers: t, h, whether a restore may follow, list, n. After a step that was done the n outputs in the list are read
+    /// too, if n > 0. Result: 1 if that went well. Data of the reply: n values.
     DoStep,
     Terminate,
     Reset,

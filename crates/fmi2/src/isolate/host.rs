@@ -163,7 +163,18 @@ impl Host {
             }
             Op::EnterInitialization => slave.enter_initialization(),
             Op::ExitInitialization => slave.exit_initialization(),
-            Op::DoStep => slave.do_step(f64::from_bits(a[0]), f64::from_bits(a[1]), a[2] != 0),
+            Op::DoStep => {
+                let mut done = slave.do_step(f64::from_bits(a[0]), f64::from_bits(a[1]), a[2] != 0);
+                if a[4] > 0 && done.status <= Status::Warning as i32 {
+                    let reply = &self.control.header().reply.numbers[PROGRESS];
+                    reply.store(reply.load(Relaxed) + 1, Relaxed);
+                    let ([list, _], values) = payload.in_place([(at(3), at(4)), (0, 0)], at(5), at(4));
+                    let read = slave.get_real(list, values);
+                    done.time += read.time;
+                    result = u64::from(read.status == Status::Ok as i32);
+                }
+                done
+            }
             Op::Terminate => slave.terminate(),
             Op::Reset => slave.reset(),
             Op::FreeInstance => {

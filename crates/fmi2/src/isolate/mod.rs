@@ -7,12 +7,13 @@
 //!                            └── shared memory ─┘   header: request, reply, log; then lists and data
 //! ```
 //!
-//! [`memory`] and [`control`] are the shared memory, [`gate`] is the handshake, [`call`] the requests, [`remote`] the
+//! [`memory`] and [`control`] are the shared memory, [`gate`] is the handshake, [`call`] the requests, [`remote`] and [`verbs`] the
 //! master's end, [`host`] the other one, [`process`] starts and ends it and passes on what it prints.
 //!
 //! A call writes its arguments into the shared memory, counts the request's word up and waits for the reply's word; the
 //! FMU reads and writes values in the shared memory itself. Waiting means spinning for up to 20 µs, then sleeping on a
-//! futex. Value references are sent once and kept, so that a call moves its values only.
+//! futex. Value references are sent once and kept, so that a call moves its values only. Calls that give nothing back go with
+//! the next one, and a step brings along the outputs that were read after the last one.
 //!
 //! Whatever the host says is taken for what it is: words from a process whose memory may be spoiled.
 
@@ -32,6 +33,8 @@ mod output;
 mod process;
 #[cfg(target_os = "linux")]
 mod remote;
+#[cfg(target_os = "linux")]
+mod verbs;
 
 #[cfg(target_os = "linux")]
 pub use host::host;

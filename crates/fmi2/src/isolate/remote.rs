@@ -1,16 +1,16 @@
-//! The master's end: every verb becomes a request.
+//! The master's end of an isolated instance: starts its process and makes requests; [`super::verbs`] says which.
 
 use super::Isolation;
 use super::call::Op;
 use super::control::{CONTROL, Control, POSTED, PROGRESS, progress};
 use super::gate::Gate;
-use super::memory::{LISTS, Payload, create, grow, to_list};
+use super::memory::{LISTS, Payload, create, grow};
 use super::process::Process;
 use crate::import::ModelDescription;
 use crate::import::error::FmuError;
 use crate::import::library::LibraryError;
-use crate::import::messages::{KEPT, Sink};
-use crate::import::slave::{Answer, Handle, Optional, Slave};
+use crate::import::messages::Sink;
+use crate::import::slave::{Answer, Slave};
 use crate::types::{Status, fmi2Status};
 use std::io;
 use std::os::fd::OwnedFd;
@@ -35,35 +35,49 @@ struct List {
     used: u64,
 }
 
+/// What the last call has left behind.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Fresh {
+    /// Nothing of use.
+    Nothing,
+    /// A step, whose outputs nobody has read.
+    Step,
+    /// The outputs of [`Remote::habit`], from an item of the data on.
+    Outputs(usize),
+}
+
 /// An isolated instance.
 pub(crate) struct Remote {
-    name: String,
-    isolation: Isolation,
+    pub(super) name: String,
+    pub(super) isolation: Isolation,
     memory: OwnedFd,
-    control: Control,
+    pub(super) control: Control,
     gate: Gate,
-    payload: Payload,
+    pub(super) payload: Payload,
     lists: [List; LISTS],
     calls: u64,
     /// Requests that go with the next one, and the numbers they occupy in the data.
-    posted: [Option<Op>; POSTED],
-    filled: usize,
+    pub(super) posted: [Option<Op>; POSTED],
+    pub(super) filled: usize,
+    /// Outputs that were read right after a step: the next one brings them along.
+    pub(super) habit: Vec<u32>,
+    pub(super) fresh: Fresh,
     owed_time: Duration,
     owed_warnings: u32,
-    functions: u64,
-    collected: u64,
-    death: Option<String>,
+    pub(super) functions: u64,
+    pub(super) collected: u64,
+    pub(super) death: Option<String>,
     /// The posted request that failed.
-    blamed: Option<&'static str>,
-    process: Process,
+    pub(super) blamed: Option<&'static str>,
+    pub(super) process: Process,
     /// Last: the folder goes after the process.
     _folder: Arc<TempDir>,
 }
 
 /// What a call answers when nobody is there.
-const GONE: Answer = Answer { status: Status::Fatal as fmi2Status, time: Duration::ZERO, warnings: 0 };
+pub(super) const GONE: Answer = Answer { status: Status::Fatal as fmi2Status, time: Duration::ZERO, warnings: 0 };
 /// What a posted request answers.
-const POSTPONED: Answer = Answer { status: Status::Ok as fmi2Status, time: Duration::ZERO, warnings: 0 };
+pub(super) const POSTPONED: Answer = Answer { status: Status::Ok as fmi2Status, time: Duration::ZERO, warnings: 0 };
 
 impl Remote {
     /// Starts the process, loads the library there and instantiates; the time is that inside the FMU.
@@ -122,6 +136,8 @@ impl Remote {
             calls: 0,
             posted: [None; POSTED],
             filled: 0,
+            habit: Vec::new(),
+            fresh: Fresh::Nothing,
             owed_time: Duration::ZERO,
             owed_warnings: 0,
             functions: 0,
@@ -134,13 +150,14 @@ impl Remote {
     }
 
     /// Makes a request and waits for the reply, the end of the process, or the end of patience.
-    fn call(&mut self, op: Op, numbers: &[u64]) -> Answer {
+    pub(super) fn call(&mut self, op: Op, numbers: &[u64]) -> Answer {
         if self.death.is_some() {
             return GONE;
         }
         self.calls += 1;
         let n = self.calls as u32;
         let posted = std::mem::take(&mut self.posted);
+        self.fresh = Fresh::Nothing;
         let count = posted.iter().flatten().count();
         self.filled = 0;
         let mine = self.gate.mine();
@@ -156,6 +173,9 @@ impl Remote {
             let at = (0..count).find(|i| progress(n, *i) == reached);
             self.blamed = at.and_then(|i| posted[i]).and_then(Op::posted_function);
         }
+        if !come && theirs.numbers[PROGRESS].load(Relaxed) == progress(n, count + 1) {
+            self.blamed = Some("fmi2GetReal");
+        }
         if !come {
             return GONE;
         }
@@ -165,7 +185,7 @@ impl Remote {
 
     /// Leaves a request for the next one to take along: it saves the way there and back. `values` lie in the data from
     /// [`Remote::filled`] on.
-    fn post(&mut self, op: Op, numbers: &[u64], values: usize) -> Answer {
+    pub(super) fn post(&mut self, op: Op, numbers: &[u64], values: usize) -> Answer {
         if self.death.is_some() {
             return GONE;
         }
@@ -173,6 +193,7 @@ impl Remote {
             return self.call(op, numbers);
         };
         self.posted[i] = Some(op);
+        self.fresh = Fresh::Nothing;
         let place = &self.control.header().posted[i];
         place.code.store(op as u32, Relaxed);
         place.numbers.iter().zip(numbers).for_each(|(place, number)| place.store(*number, Relaxed));
@@ -227,12 +248,12 @@ impl Remote {
     }
 
     /// The reply's result.
-    fn result(&self) -> u64 {
+    pub(super) fn result(&self) -> u64 {
         self.gate.theirs().numbers[1].load(Relaxed)
     }
 
     /// The bytes whose length is the reply's result.
-    fn fetch(&mut self) -> Vec<u8> {
+    pub(super) fn fetch(&mut self) -> Vec<u8> {
         let length = self.result();
         if length > LARGEST || self.reserve(0, length as usize).is_err() {
             return Vec::new();
@@ -242,14 +263,14 @@ impl Remote {
     }
 
     /// Makes room, behind the values of posted requests or without them; fails as they do, or if there is none.
-    fn reserve_behind(&mut self, items: usize, values: usize) -> Result<(), Answer> {
+    pub(super) fn reserve_behind(&mut self, items: usize, values: usize) -> Result<(), Answer> {
         let (has_items, has_bytes) = self.payload.room();
         let fits = items <= has_items && 8 * (self.filled + values) <= has_bytes;
         if fits && self.death.is_none() { Ok(()) } else { self.reserve(items, 8 * values) }
     }
 
     /// Makes room for bytes and makes the posted requests; fails as they do, or if there is none: the FMU is then given up.
-    fn reserve(&mut self, items: usize, bytes: usize) -> Result<(), Answer> {
+    pub(super) fn reserve(&mut self, items: usize, bytes: usize) -> Result<(), Answer> {
         self.flushed()?;
         let (has_items, has_bytes) = self.payload.room();
         if items <= has_items && bytes <= has_bytes {
@@ -272,7 +293,7 @@ impl Remote {
     }
 
     /// Numbers of the lists with these items, which are sent if the host does not have them. Those of posted requests stay.
-    fn lists(&mut self, items: [&[u32]; 2]) -> Result<[u64; 2], Answer> {
+    pub(super) fn lists(&mut self, items: [&[u32]; 2]) -> Result<[u64; 2], Answer> {
         let busy = self.lists.iter().filter(|list| list.used > self.calls).count();
         if busy + 2 > LISTS {
             self.flushed()?;
@@ -295,165 +316,7 @@ impl Remote {
     }
 
     /// A request about one variable.
-    fn one(&mut self, op: Op, reference: u32, value: u64) -> Answer {
+    pub(super) fn one(&mut self, op: Op, reference: u32, value: u64) -> Answer {
         self.call(op, &[u64::from(reference), value])
-    }
-}
-
-/// What a request needs before it can be made, or the answer.
-macro_rules! some {
-    ($result:expr) => {
-        match $result {
-            Ok(value) => value,
-            Err(answer) => return answer,
-        }
-    };
-}
-
-impl Slave for Remote {
-    fn has(&self, function: Optional) -> bool {
-        self.functions & function.bit() != 0
-    }
-
-    fn setup_experiment(&mut self, start: f64, stop: Option<f64>) -> Answer {
-        let numbers = [start.to_bits(), u64::from(stop.is_some()), stop.unwrap_or_default().to_bits()];
-        self.call(Op::SetupExperiment, &numbers)
-    }
-    fn enter_initialization(&mut self) -> Answer {
-        self.call(Op::EnterInitialization, &[])
-    }
-    fn exit_initialization(&mut self) -> Answer {
-        self.call(Op::ExitInitialization, &[])
-    }
-    fn do_step(&mut self, t: f64, h: f64, may_restore: bool) -> Answer {
-        self.call(Op::DoStep, &[t.to_bits(), h.to_bits(), u64::from(may_restore)])
-    }
-    fn terminate(&mut self) -> Answer {
-        self.call(Op::Terminate, &[])
-    }
-    fn reset(&mut self) -> Answer {
-        self.call(Op::Reset, &[])
-    }
-    /// Also ends the process.
-    fn free_instance(&mut self) {
-        self.call(Op::FreeInstance, &[]);
-        self.call(Op::Quit, &[]);
-        if self.death.is_some() {
-            return;
-        }
-        if !self.process.ends_within(self.isolation.timeout) {
-            self.process.finish();
-            self.death = Some("did not end after it had freed the instance and was killed".into());
-        } else if !self.process.finish().is_some_and(|status| status.success()) {
-            self.death = Some(self.process.epitaph());
-        }
-    }
-
-    fn get_real(&mut self, references: &[u32], values: &mut [f64]) -> Answer {
-        let n = references.len();
-        let list = self.reserve_behind(n, n).and_then(|()| self.lists([references; 2]));
-        let [list, _] = some!(list);
-        let first = self.filled;
-        let answer = self.call(Op::GetReal, &[list, n as u64, 0, 0, 0, first as u64]);
-        self.payload.read(first, values);
-        answer
-    }
-    fn set_real(&mut self, references: &[u32], values: &[f64]) -> Answer {
-        let n = references.len();
-        let list = self.reserve_behind(n, n).and_then(|()| self.lists([references; 2]));
-        let [list, _] = some!(list);
-        self.payload.write(self.filled, values);
-        self.post(Op::SetReal, &[list, n as u64, 0, 0, 0, self.filled as u64], n)
-    }
-    fn set_input_derivatives(&mut self, references: &[u32], orders: &[i32], values: &[f64]) -> Answer {
-        let n = references.len();
-        let lists = self.reserve_behind(n, n).and_then(|()| self.lists([references, to_list(orders)]));
-        let [list, orders] = some!(lists);
-        self.payload.write(self.filled, values);
-        self.post(Op::SetInputDerivatives, &[list, n as u64, orders, 0, 0, self.filled as u64], n)
-    }
-    fn directional_derivative(&mut self, unknown: &[u32], known: &[u32], seed: &[f64], out: &mut [f64]) -> Answer {
-        let (n, m) = (unknown.len(), known.len());
-        let lists = self.reserve(n.max(m), 8 * (n + m)).and_then(|()| self.lists([unknown, known]));
-        let [unknown, known] = some!(lists);
-        self.payload.write(0, seed);
-        let answer = self.call(Op::DirectionalDerivative, &[unknown, n as u64, known, m as u64]);
-        self.payload.read(m, out);
-        answer
-    }
-    fn get_integer(&mut self, reference: u32, value: &mut i32) -> Answer {
-        let answer = self.one(Op::GetInteger, reference, 0);
-        *value = self.result() as i32;
-        answer
-    }
-    fn get_boolean(&mut self, reference: u32, value: &mut bool) -> Answer {
-        let answer = self.one(Op::GetBoolean, reference, 0);
-        *value = self.result() != 0;
-        answer
-    }
-    fn get_string(&mut self, reference: u32, value: &mut String) -> Answer {
-        let answer = self.one(Op::GetString, reference, 0);
-        *value = String::from_utf8_lossy(&self.fetch()).into_owned();
-        if self.death.is_some() { GONE } else { answer }
-    }
-    fn set_integer(&mut self, reference: u32, value: i32) -> Answer {
-        self.one(Op::SetInteger, reference, u64::from(value as u32))
-    }
-    fn set_boolean(&mut self, reference: u32, value: bool) -> Answer {
-        self.one(Op::SetBoolean, reference, u64::from(value))
-    }
-    fn set_string(&mut self, reference: u32, value: &str) -> Answer {
-        some!(self.reserve(0, value.len()));
-        self.payload.write_bytes(0, value.as_bytes());
-        self.one(Op::SetString, reference, value.len() as u64)
-    }
-
-    fn get_state(&mut self, handle: &mut Handle) -> Answer {
-        let answer = self.call(Op::GetState, &[*handle as u64]);
-        if self.blamed.is_none() && self.death.is_none() {
-            *handle = self.result() as Handle;
-        }
-        answer
-    }
-    fn set_state(&mut self, handle: Handle) -> Answer {
-        self.post(Op::SetState, &[handle as u64], 0)
-    }
-    fn free_state(&mut self, handle: &mut Handle) -> Answer {
-        let answer = self.call(Op::FreeState, &[*handle as u64]);
-        *handle = 0;
-        answer
-    }
-    fn serialize(&mut self, handle: Handle, bytes: &mut Vec<u8>) -> Answer {
-        let answer = self.call(Op::Serialize, &[handle as u64]);
-        *bytes = self.fetch();
-        if self.death.is_some() { GONE } else { answer }
-    }
-    fn deserialize(&mut self, bytes: &[u8], handle: &mut Handle) -> Answer {
-        some!(self.reserve(0, bytes.len()));
-        self.payload.write_bytes(0, bytes);
-        let answer = self.call(Op::Deserialize, &[*handle as u64, bytes.len() as u64]);
-        *handle = self.result() as Handle;
-        answer
-    }
-
-    fn collect(&mut self, sink: &Sink) {
-        let logged = self.control.logged();
-        if logged != self.collected {
-            let first = self.collected.max(logged.saturating_sub(KEPT as u64));
-            (first..logged).for_each(|n| sink.push(self.control.message(n)));
-            self.collected = logged;
-        }
-    }
-
-    fn blame(&mut self) -> Option<&'static str> {
-        self.blamed.take()
-    }
-
-    fn death(&self) -> Option<&str> {
-        self.death.as_deref()
-    }
-
-    fn report(&self, what: &str) {
-        (self.isolation.listener)(&self.name, what);
     }
 }
