@@ -4,12 +4,11 @@ use std::ops::ControlFlow;
 use std::path::PathBuf;
 
 use ttb_bridge::Bridge;
-use ttb_coupling::iteration::{IterationError, OnFailure, Settings};
-use ttb_coupling::predictor::Predictor;
+use ttb_coupling::iteration::IterationError;
 use ttb_coupling::run::{TimeAxis, run};
 use ttb_coupling::{Coupling, InProcess, Instance, Interface, Model};
 use ttb_scenario::Checked;
-use ttb_scenario::types::Method;
+use ttb_scenario::spec::StructureSpec;
 use ttb_train_track::TrainTrack;
 
 /// Results by name, one vector over time each, row 0 at t = 0.
@@ -61,18 +60,17 @@ pub fn example(name: &str) -> Checked {
     ttb_scenario::load(&examples().join(name)).unwrap_or_else(|problems| panic!("{problems}"))
 }
 
-/// The coupling settings of a scenario.
-pub fn settings(checked: &Checked) -> Settings {
-    let c = &checked.scenario.coupling;
-    Settings {
-        aitken: c.method == Method::Aitken,
-        predictor: Predictor::Linear,
-        tolerance: c.tolerance,
-        force_scale: checked.axle_load,
-        max_iterations: c.max_iterations,
-        hold_forces: false,
-        on_failure: OnFailure::Stop,
-    }
+/// R1 with a bridge of `mass` kg/m, bending stiffness scaled alike (so are its frequencies kept), and steps of `h` s.
+///
+/// # Panics
+/// R1 is not what it was.
+pub fn r1_with(mass: f64, h: f64) -> Checked {
+    let mut checked = example("r1.json");
+    (checked.train_track.step, checked.bridge.step) = (h, h);
+    let StructureSpec::Beams { spans, .. } = &mut checked.bridge.structure else { panic!("R1 has a beam") };
+    spans[0].bending_stiffness *= mass / spans[0].mass;
+    spans[0].mass = mass;
+    checked
 }
 
 /// Both subsystems in initialization mode, wired by equal names, and the value references of their outputs.
@@ -121,7 +119,7 @@ pub fn pair(checked: &Checked) -> Pair {
 /// The run fails.
 pub fn library_run(checked: &Checked) -> Table {
     let Pair { mut train_track, mut bridge, coupled, outputs } = pair(checked);
-    let mut coupling = Coupling::new(coupled.0, coupled.1, settings(checked));
+    let mut coupling = Coupling::new(coupled.0, coupled.1, checked.scenario.coupling.settings(checked.axle_load));
     coupling.initialise(&mut train_track, &mut bridge, 0.0).expect("static equilibrium");
     let names = outputs.iter().enumerate().flat_map(|(i, (names, _))| {
         // Motions of the supports stand on both sides; the bridge's are outputs, the other side's inputs.

@@ -3,13 +3,11 @@
 use std::collections::HashSet;
 use std::path::Path;
 
-use ttb_coupling::iteration::{OnFailure, Settings};
-use ttb_coupling::predictor::Predictor;
 use ttb_coupling::{Coupling, Subsystem};
 use ttb_fmi2::import::{FmuInstance, FmuSubsystem, ModelDescription, VariableType};
 use ttb_fmi2::isolate::Isolation;
 use ttb_scenario::Checked;
-use ttb_scenario::types::{Method, OnFailure as Policy, Predictor as First, Send};
+use ttb_scenario::types::Send;
 
 use crate::error::Error;
 use crate::isolate::{self, Isolated};
@@ -51,15 +49,20 @@ pub fn connect(train_track: &Path, bridge: &Path, checked: &Checked, isolated: &
     if let Some(open) = unconnected(bridge.description(), &forces) {
         warnings.push(format!("{}: input {open} is connected to nothing and keeps its start value", bridge.name()));
     }
-    let settings = settings(checked);
-    for fmu in [&train_track, &bridge] {
-        if settings.max_iterations > 1 && !fmu.can_restore() {
-            return Err(Error::Input(format!(
-                "{} cannot save and restore its state (canGetAndSetFMUstate), so its steps cannot be iterated; one pass a step is \
-                 coupling.max_iterations = 1 with on_failure = accept, which is only accurate for heavy bridges and small steps",
-                fmu.name()
-            )));
-        }
+    let settings = checked.scenario.coupling.settings(checked.axle_load);
+    if settings.max_iterations > 1 && !train_track.can_restore() {
+        return Err(Error::Input(format!(
+            "{} cannot save and restore its state (canGetAndSetFMUstate), so its steps cannot be repeated; one pass a step is \
+             coupling.max_iterations = 1 with on_failure = accept, which is only accurate for heavy bridges and small steps",
+            train_track.name()
+        )));
+    }
+    if settings.max_iterations > 1 && !bridge.can_restore() {
+        warnings.push(format!(
+            "{} cannot save and restore its state (canGetAndSetFMUstate): its steps are taken once, without iteration; the \
+             summary estimates the error",
+            bridge.name()
+        ));
     }
     if checked.scenario.coupling.send == Send::Rate && !bridge.can_interpolate() {
         let name = bridge.name();
@@ -120,24 +123,4 @@ fn refuse_strangers(bridge: &FmuInstance, train_track: &FmuInstance, forces: &[S
         }
     }
     Ok(())
-}
-
-fn settings(checked: &Checked) -> Settings {
-    let coupling = &checked.scenario.coupling;
-    Settings {
-        aitken: coupling.method == Method::Aitken,
-        predictor: match coupling.predictor {
-            First::Constant => Predictor::Constant,
-            First::Linear => Predictor::Linear,
-        },
-        tolerance: coupling.tolerance,
-        force_scale: checked.axle_load,
-        max_iterations: coupling.max_iterations,
-        hold_forces: coupling.send == Send::Mean,
-        on_failure: match coupling.on_failure {
-            Policy::Stop => OnFailure::Stop,
-            Policy::Halve => OnFailure::Halve,
-            Policy::Accept => OnFailure::Accept,
-        },
-    }
 }

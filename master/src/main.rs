@@ -11,6 +11,7 @@ macro_rules! say {
 mod build;
 mod cli;
 mod connect;
+mod coupled;
 mod error;
 mod generate;
 mod isolate;

@@ -17,6 +17,21 @@ use crate::error::Error;
 const DIGITS: WriteFloatOptions =
     WriteFloatOptions::builder().min_significant_digits(NonZeroUsize::new(17)).build_strict();
 
+/// Columns of iterations.csv.
+const ITERATIONS: [&str; 11] = [
+    "time",
+    "iterations",
+    "residual",
+    "contraction",
+    "roll_backs",
+    "halvings",
+    "converged",
+    "seconds",
+    "method",
+    "train_track_trials",
+    "rescues",
+];
+
 /// A recorded variable.
 #[derive(Clone, Debug)]
 pub struct Column {
@@ -53,9 +68,7 @@ impl Recorder {
         let references = [train_track, bridge].map(|fmu| outputs(fmu.instance().description(), supports, &mut columns));
         let names = columns.iter().map(|c| c.name.as_str());
         let results = Table::create(&folder.join("results.csv"), std::iter::once("time").chain(names))?;
-        let header =
-            ["time", "iterations", "residual", "contraction", "roll_backs", "halvings", "converged", "seconds"];
-        let iterations = Table::create(&folder.join("iterations.csv"), header.into_iter())?;
+        let iterations = Table::create(&folder.join("iterations.csv"), ITERATIONS.into_iter())?;
         Ok(Self { row: vec![0.0; columns.len()], columns, references, results, iterations, every: every as u64, last })
     }
 
@@ -88,6 +101,7 @@ impl Recorder {
         let converged = u8::from(info.outcome == Outcome::Converged);
         table.text(format_args!("{},{},{converged}", info.roll_backs, info.halvings));
         table.text(format_args!("{seconds:.6e}"));
+        table.text(format_args!("{},{},{}", info.method.name(), info.train_track_trials, info.rescues));
         table.end_row()
     }
 

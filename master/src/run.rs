@@ -14,6 +14,7 @@ use ttb_scenario::Checked;
 use crate::build;
 use crate::cli::Run;
 use crate::connect::{Connected, connect};
+use crate::coupled::CouplingReport;
 use crate::error::Error;
 use crate::isolate::Isolated;
 use crate::peaks::Peaks;
@@ -63,7 +64,7 @@ fn run_isolated(arguments: &Run, isolated: &Isolated) -> Result<(), Error> {
     let outcome = simulate(&mut connected, axis, &mut log, &stop, begin, &mut seconds);
     log.bar.finish_and_clear();
     let outcome = outcome.and(log.recorder.flush());
-    finish(&checked, &log, outcome, seconds, &connected.warnings, folder, arguments.quiet)
+    finish(&checked, &log, outcome, seconds, &connected, folder, arguments.quiet)
 }
 
 /// Results of a run as they come.
@@ -142,11 +143,13 @@ fn finish(
     log: &Log,
     outcome: Result<(), Error>,
     seconds: Seconds,
-    warnings: &[String],
+    connected: &Connected,
     folder: &Path,
     quiet: bool,
 ) -> Result<(), Error> {
-    let summary = Summary::new(checked, &outcome, log.reached, &log.iterations, seconds, warnings, &log.peaks);
+    let coupling = CouplingReport::new(&connected.coupling);
+    let (iterations, warnings) = (&log.iterations, &connected.warnings);
+    let summary = Summary::new(checked, &outcome, log.reached, iterations, coupling, seconds, warnings, &log.peaks);
     let written = summary.write(&folder.join("summary.json"));
     if !quiet {
         summary.print(folder);

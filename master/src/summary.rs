@@ -8,6 +8,7 @@ use ttb_coupling::iteration::Outcome;
 use ttb_scenario::Checked;
 use ttb_scenario::spec::Profile;
 
+use crate::coupled::CouplingReport;
 use crate::error::Error;
 use crate::peaks::{ContactLoss, Peak, Peaks};
 
@@ -28,8 +29,16 @@ pub struct Iterations {
     pub halvings: u64,
     /// Steps accepted without convergence.
     pub not_converged: u64,
+    /// Mean number of steps of the train–track FMU a step.
+    pub mean_train_track: f64,
+    /// Steps that were begun again by quasi-Newton with an empty memory.
+    pub rescues: u64,
+    /// Steps taken once, without iteration, since the bridge cannot roll back.
+    pub explicit: u64,
     #[serde(skip)]
     total: u64,
+    #[serde(skip)]
+    total_train_track: u64,
 }
 
 impl Iterations {
@@ -42,7 +51,11 @@ impl Iterations {
         self.max_residual = self.max_residual.max(info.residual);
         self.roll_backs += info.roll_backs as u64;
         self.halvings += info.halvings as u64;
-        self.not_converged += u64::from(info.outcome != Outcome::Converged);
+        self.not_converged += u64::from(info.outcome == Outcome::IterationLimit);
+        self.total_train_track += info.train_track_trials as u64;
+        self.mean_train_track = self.total_train_track as f64 / self.steps as f64;
+        self.rescues += info.rescues as u64;
+        self.explicit += u64::from(info.outcome == Outcome::Explicit);
     }
 }
 
@@ -80,6 +93,7 @@ pub struct Summary<'a> {
     end_s: f64,
     reached_s: f64,
     iterations: &'a Iterations,
+    coupling: CouplingReport,
     seconds: Seconds,
     times_faster_than_real_time: f64,
     warnings: &'a [String],
@@ -100,6 +114,7 @@ impl<'a> Summary<'a> {
         outcome: &'a Result<(), Error>,
         reached: f64,
         iterations: &'a Iterations,
+        coupling: CouplingReport,
         seconds: Seconds,
         warnings: &'a [String],
         peaks: &'a Peaks,
@@ -119,6 +134,7 @@ impl<'a> Summary<'a> {
             end_s: checked.train_track.end,
             reached_s: reached,
             iterations,
+            coupling,
             seconds,
             times_faster_than_real_time: if seconds.stepping > 0.0 { reached / seconds.stepping } else { 0.0 },
             warnings,
@@ -140,6 +156,7 @@ impl<'a> Summary<'a> {
         let (i, s) = (self.iterations, self.seconds);
         say!("  {} steps of {} s to t = {} s: {}", i.steps, self.step_s, self.reached_s, self.status);
         say!("  iterations      mean {:.2}, max {}, residual ≤ {:.1e}", i.mean, i.max, i.max_residual);
+        self.coupling.print();
         say!(
             "  seconds         {:.2} stepping ({:.1} × real time): train–track {:.2}, bridge {:.2}, master {:.3}, results {:.2}; start {:.2}",
             s.stepping,

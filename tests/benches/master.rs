@@ -5,9 +5,9 @@ mod trivial;
 
 use std::time::Instant;
 
-use ttb_coupling::Coupling;
 use ttb_coupling::iteration::{OnFailure, Settings};
 use ttb_coupling::predictor::Predictor;
+use ttb_coupling::{Coupling, Method};
 use ttb_fmi2::import::{Fmu, FmuSubsystem};
 
 use trivial::{N, pack};
@@ -25,10 +25,14 @@ fn main() {
         instance.setup_experiment(0.0, None).and_then(|()| instance.enter_initialization()).expect("initialization");
         FmuSubsystem::new(instance, inputs, outputs).expect("names")
     };
-    for (what, limit, contraction) in [("explicit, 1 sweep a step", 1, "0.03"), ("implicit, 1e-10", 30, "0.03")] {
-        let mut train_track = make("Front", &motions, &forces, contraction);
+    for (what, limit, method) in [
+        ("explicit, 1 sweep a step", 1, Method::FixedPoint),
+        ("implicit, 1e-10", 30, Method::FixedPoint),
+        ("implicit, 1e-10, default method", 30, Method::Auto),
+    ] {
+        let mut train_track = make("Front", &motions, &forces, "0.03");
         let mut bridge = make("Back", &forces, &motions, "1.0");
-        let mut coupling = Coupling::new(N, N, settings(limit));
+        let mut coupling = Coupling::new(N, N, settings(limit, method));
         coupling.initialise(&mut train_track, &mut bridge, 0.0).expect("equilibrium");
         let (mut best, mut best_inside, mut sweeps) = (f64::INFINITY, 0.0, 0);
         let mut n = 0;
@@ -60,9 +64,10 @@ fn main() {
     }
 }
 
-fn settings(limit: usize) -> Settings {
+fn settings(limit: usize, method: Method) -> Settings {
     Settings {
-        aitken: false,
+        method,
+        reuse: 2,
         predictor: Predictor::Constant,
         tolerance: 1e-10,
         force_scale: 1e-3,

@@ -8,7 +8,7 @@ use std::time::Instant;
 use ttb_coupling::Coupling;
 use ttb_coupling::iteration::IterationError;
 use ttb_coupling::run::{TimeAxis, run};
-use ttb_tests::{Pair, example, examples, pair, settings, ttb};
+use ttb_tests::{Pair, example, examples, pair, ttb};
 
 fn main() {
     let chosen: Vec<String> = std::env::args().skip(1).filter(|a| a.ends_with(".json")).collect();
@@ -21,7 +21,8 @@ fn main() {
         for _ in 0..3 {
             let begin = Instant::now();
             let Pair { mut train_track, mut bridge, coupled, .. } = pair(&checked);
-            let mut coupling = Coupling::new(coupled.0, coupled.1, settings(&checked));
+            let mut coupling =
+                Coupling::new(coupled.0, coupled.1, checked.scenario.coupling.settings(checked.axle_load));
             coupling.initialise(&mut train_track, &mut bridge, 0.0).expect("static equilibrium");
             start = begin.elapsed().as_secs_f64();
             let begin = Instant::now();

@@ -1,6 +1,7 @@
 """The examples: all are free of problems, and R1 gives the published numbers (docs/theory.md 15, two independent codes)."""
 
 import json
+import shutil
 
 import pytest
 from conftest import REPOSITORY
@@ -28,6 +29,7 @@ def test_an_example_runs_for_a_while(ttb, example, tmp_path):
     """Its first 20 steps, copied beside the files that it names."""
     for file in example.parent.glob("*.csv"):
         (tmp_path / file.name).write_bytes(file.read_bytes())
+    shutil.copytree(example.parent / "bridges", tmp_path / "bridges")
     step = json.loads(example.read_text())["time"]["step"]
     ttb("run", changed(example, tmp_path / "s.json", {"time.end": 20 * step}), "-o", tmp_path / "out")
     assert json.loads((tmp_path / "out" / "summary.json").read_text())["iterations"]["steps"] == 20

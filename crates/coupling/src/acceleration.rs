@@ -1,4 +1,5 @@
 //! How the next trial follows from the residual r = G(λ) − λ: an object with three verbs and no physics.
+//! The simple ones; see [`crate::quasi_newton`] and [`crate::newton`] for those with a memory.
 
 /// An acceleration of the fixed-point iteration λ = G(λ).
 pub trait Acceleration {
@@ -6,8 +7,8 @@ pub trait Acceleration {
     fn begin_step(&mut self);
     /// λ^{k−1} → λ^k, given r = G(λ^{k−1}) − λ^{k−1}.
     fn update(&mut self, lambda: &mut [f64], residual: &[f64]);
-    /// The step is over.
-    fn end_step(&mut self);
+    /// The step is over: its last trial and what was left of the residual.
+    fn end_step(&mut self, lambda: &[f64], residual: &[f64]);
 }
 
 /// λ^k = G(λ^{k−1}): the paper's iteration.
@@ -19,7 +20,7 @@ impl Acceleration for FixedPoint {
     fn update(&mut self, lambda: &mut [f64], residual: &[f64]) {
         lambda.iter_mut().zip(residual).for_each(|(l, r)| *l += r);
     }
-    fn end_step(&mut self) {}
+    fn end_step(&mut self, _lambda: &[f64], _residual: &[f64]) {}
 }
 
 /// Aitken's dynamic relaxation (Küttler & Wall, Comput. Mech. 43, 2008, eq. 44):
@@ -50,22 +51,25 @@ impl Acceleration for Aitken {
     }
     fn update(&mut self, lambda: &mut [f64], residual: &[f64]) {
         if !self.first {
-            let (mut product, mut square) = (0.0, 0.0);
-            for (r, p) in residual.iter().zip(&self.previous) {
-                let change = r - p;
-                product += p * change;
-                square += change * change;
-            }
-            if square > 0.0 {
-                self.omega *= -product / square;
-            }
+            self.omega = relaxation(self.omega, &self.previous, residual);
         }
-        self.omega = self.omega.clamp(0.05, 1.0);
         lambda.iter_mut().zip(residual).for_each(|(l, r)| *l += self.omega * r);
         self.previous.copy_from_slice(residual);
         self.first = false;
     }
-    fn end_step(&mut self) {}
+    fn end_step(&mut self, _lambda: &[f64], _residual: &[f64]) {}
+}
+
+/// Aitken's next ω, in [0.05, 1], from the last one, the residual before it and the one after it.
+pub(crate) fn relaxation(omega: f64, before: &[f64], after: &[f64]) -> f64 {
+    let (mut product, mut square) = (0.0, 0.0);
+    for (r, p) in after.iter().zip(before) {
+        let change = r - p;
+        product += p * change;
+        square += change * change;
+    }
+    let next = if square > 0.0 { omega * (-product / square) } else { omega };
+    next.clamp(0.05, 1.0)
 }
 
 #[cfg(test)]

@@ -37,7 +37,10 @@ impl<M: Model> Subsystem for InProcess<M> {
         set.map_err(|e| self.failure(&e))
     }
     fn get_outputs(&mut self, outputs: &mut [f64]) -> Result<(), Failure> {
-        self.instance.get(&self.outputs, outputs).map_err(|e| self.failure(&e))
+        self.instance.get(&self.outputs, outputs).map_err(|e| self.failure(&e))?;
+        let Some(index) = outputs.iter().position(|x| !x.is_finite()) else { return Ok(()) };
+        let name = &self.instance.model().interface().variables()[self.outputs[index] as usize].name;
+        Err(self.failure(&ModelError(format!("output {name} is {}", outputs[index]))))
     }
     fn exit_initialization(&mut self) -> Result<(), Failure> {
         self.instance.exit_initialization().map_err(|e| self.failure(&e))
@@ -60,5 +63,12 @@ impl<M: Model> Subsystem for InProcess<M> {
     }
     fn can_interpolate(&self) -> bool {
         true
+    }
+    fn can_derive(&self) -> bool {
+        M::DIRECTIONAL_DERIVATIVES
+    }
+    fn derivative(&mut self, seed: &[f64], change: &mut [f64]) -> Result<(), Failure> {
+        let derived = self.instance.directional_derivative(&self.outputs, &self.inputs, seed, change);
+        derived.map_err(|e| self.failure(&e))
     }
 }

@@ -4,23 +4,28 @@
 //!
 //! ```text
 //! 0  save both states
-//! 1  λ⁰ ← predict(λ_n, λ_{n−1})
+//! 1  λ⁰ ← predict(λ_n, λ_{n−1}, …)
 //! 2  for k = 1 … k_max
 //!      bridge      ← λ_n, (λ^{k−1} − λ_n)/h;                  step;   d, ḋ ← bridge
 //!      train–track ← d_n, ḋ_n, (d − d_n)/h, (ḋ − ḋ_n)/h;      step;   G ← train–track
 //!      r = G − λ^{k−1};   |r| ≤ tolerance · max(|G|, one axle load) → leave, converged
 //!      λ^k ← accelerate(λ^{k−1}, r);   restore both
+//! 3  not converged: once more by quasi-Newton with an empty memory; then in two halves, or stop
 //! ```
 //!
 //! A subsystem that cannot interpolate its inputs gets the mean over the step, held: (λ_n + λ^{k−1})/2. Both ways the
 //! converged step *is* the monolithic one, to the tolerance, for subsystems that integrate by the trapezoidal rule; a
 //! held end value would be first order only. Nothing here is allocated in a step.
 
-use crate::acceleration::{Acceleration, Aitken, FixedPoint};
+use crate::exchange::{Exchange, Sides};
+use crate::explicit::Explicit;
 use crate::predictor::History;
-pub use crate::report::{IterationError, Outcome, StepInfo};
+pub use crate::report::{IterationError, Outcome, Report, StepInfo};
+use crate::settings::Method;
 pub use crate::settings::{OnFailure, Settings};
-use crate::subsystem::{Failure, Subsystem};
+use crate::strategy::Strategy;
+use crate::subsystem::Subsystem;
+use crate::trials::Mode;
 
 /// Halvings of a step at most, under [`OnFailure::Halve`].
 const HALVINGS: usize = 4;
@@ -30,45 +35,52 @@ const STATIC_TRIALS: usize = 30;
 
 /// The coupling of one train–track subsystem with one bridge.
 pub struct Coupling {
-    settings: Settings,
-    acceleration: Box<dyn Acceleration>,
-    forces: History,
+    pub(crate) settings: Settings,
+    pub(crate) forces: History,
+    pub(crate) exchange: Exchange,
     /// λ, the trial sent to the bridge.
-    lambda: Vec<f64>,
+    pub(crate) lambda: Vec<f64>,
     /// G(λ), the answer of the train–track subsystem.
-    answer: Vec<f64>,
-    residual: Vec<f64>,
-    /// (d, ḋ) at t_n and at the end of the trial step.
-    motion_now: Vec<f64>,
-    motion: Vec<f64>,
-    /// What is sent: means, or rates.
-    sent_force: Vec<f64>,
-    sent_motion: Vec<f64>,
+    pub(crate) answer: Vec<f64>,
+    pub(crate) residual: Vec<f64>,
+    /// Trials begun in the iteration at hand.
+    pub(crate) made: usize,
+    pub(crate) strategy: Strategy,
+    pub(crate) report: Report,
+    pub(crate) explicit: Explicit,
 }
 
 impl Coupling {
-    /// For `forces` support forces and `motions` deck motions (displacements and velocities).
+    /// For `forces` support forces and `motions` deck motions (displacements, then velocities).
     pub fn new(forces: usize, motions: usize, settings: Settings) -> Self {
-        let acceleration: Box<dyn Acceleration> =
-            if settings.aitken { Box::new(Aitken::new(forces)) } else { Box::new(FixedPoint) };
-        let (f, m) = (|| vec![0.0; forces], || vec![0.0; motions]);
+        let zero = || vec![0.0; forces];
         Self {
             settings,
-            acceleration,
             forces: History::new(forces),
-            lambda: f(),
-            answer: f(),
-            residual: f(),
-            motion_now: m(),
-            motion: m(),
-            sent_force: f(),
-            sent_motion: m(),
+            exchange: Exchange::new(forces, motions, settings.hold_forces),
+            lambda: zero(),
+            answer: zero(),
+            residual: zero(),
+            made: 0,
+            strategy: Strategy::new(forces, &settings),
+            report: Report::default(),
+            explicit: Explicit::default(),
         }
     }
 
     /// Accepted support forces at t_n, N.
     pub fn forces(&self) -> &[f64] {
         self.forces.now()
+    }
+
+    /// What was found out besides the steps.
+    pub fn report(&self) -> &Report {
+        &self.report
+    }
+
+    /// The method in force from step to step, never `Auto`.
+    pub fn method(&self) -> Method {
+        self.strategy.method()
     }
 
     /// Static force compatibility in initialization mode, then the end of initialization.
@@ -81,19 +93,16 @@ impl Coupling {
         bridge: &mut dyn Subsystem,
         t: f64,
     ) -> Result<StepInfo, IterationError> {
-        let info = self.iterate(t, self.settings.max_iterations.max(STATIC_TRIALS), |this| {
-            bridge.set_inputs(&this.lambda, None)?;
-            bridge.get_outputs(&mut this.motion)?;
-            train_track.set_inputs(&this.motion, None)?;
-            train_track.get_outputs(&mut this.answer)?;
-            Ok(())
-        })?;
+        let mut sides = Sides { train_track, bridge, t, h: 0.0 };
+        self.strategy.begin_static();
+        let info = self.iterate(&mut sides, Mode::Equilibrium, self.settings.max_iterations.max(STATIC_TRIALS))?;
+        self.strategy.end_static();
         if info.outcome == Outcome::IterationLimit && self.settings.on_failure != OnFailure::Accept {
-            return Err(IterationError::NotConverged { t, h: 0.0, info });
+            return Err(IterationError::NotConverged { t, h: 0.0, info, rho: None });
         }
-        train_track.exit_initialization()?;
-        bridge.exit_initialization()?;
-        bridge.get_outputs(&mut self.motion_now)?;
+        sides.train_track.exit_initialization()?;
+        sides.bridge.exit_initialization()?;
+        sides.bridge.get_outputs(&mut self.exchange.now)?;
         self.forces.start(&self.lambda);
         Ok(info)
     }
@@ -101,7 +110,8 @@ impl Coupling {
     /// One macro step [t, t + h].
     ///
     /// # Errors
-    /// A subsystem fails, the residual is not finite, or the step does not converge and the policy says stop.
+    /// A subsystem fails or answers NaN, the step does not converge and the policy says stop, or a bridge that cannot
+    /// roll back makes the coupling unstable.
     pub fn step(
         &mut self,
         train_track: &mut dyn Subsystem,
@@ -109,124 +119,99 @@ impl Coupling {
         t: f64,
         h: f64,
     ) -> Result<StepInfo, IterationError> {
-        self.step_or_halve(train_track, bridge, t, h, 0)
+        let mut sides = Sides { train_track, bridge, t, h };
+        if self.settings.max_iterations == 1 {
+            self.one_pass(&mut sides)
+        } else if self.settings.method == Method::Explicit || !sides.bridge.can_roll_back() {
+            self.explicit_step(&mut sides)
+        } else {
+            self.step_or_halve(&mut sides, 0)
+        }
     }
 
-    fn step_or_halve(
-        &mut self,
-        train_track: &mut dyn Subsystem,
-        bridge: &mut dyn Subsystem,
-        t: f64,
-        h: f64,
-        depth: usize,
-    ) -> Result<StepInfo, IterationError> {
-        let info = self.try_step(train_track, bridge, t, h)?;
-        let policy = self.settings.on_failure;
+    /// Bridge first under the extrapolated forces, once; nothing but the answer carries the train's forces on.
+    fn one_pass(&mut self, sides: &mut Sides) -> Result<StepInfo, IterationError> {
+        self.forces.predict(self.settings.predictor, sides.h, &mut self.lambda);
+        self.strategy.begin_step(sides.h);
+        let info = self.iterate(sides, Mode::OnePass, 1)?;
+        if info.outcome != Outcome::Converged && self.settings.on_failure != OnFailure::Accept {
+            return Err(IterationError::NotConverged { t: sides.t, h: sides.h, info, rho: None });
+        }
+        self.forces.accept(&self.answer, sides.h);
+        self.exchange.accept();
+        Ok(info)
+    }
+
+    fn step_or_halve(&mut self, sides: &mut Sides, depth: usize) -> Result<StepInfo, IterationError> {
+        let info = self.try_step(sides)?;
+        let (policy, t, h) = (self.settings.on_failure, sides.t, sides.h);
         if info.outcome == Outcome::Converged || policy == OnFailure::Accept {
-            // In one pass nothing but the answer carries the train's forces into the next step.
-            let one_pass = self.settings.max_iterations == 1;
-            self.forces.accept(if one_pass { &self.answer } else { &self.lambda }, h);
-            std::mem::swap(&mut self.motion_now, &mut self.motion);
+            self.forces.accept(&self.lambda, h);
+            self.exchange.accept();
+            if self.strategy.observe(info.iterations).is_some() {
+                self.note(t);
+            }
             return Ok(info);
         }
-        if self.settings.max_iterations > 1 {
-            train_track.restore()?;
-            bridge.restore()?;
+        if policy == OnFailure::Stop || depth == HALVINGS {
+            self.forces.predict(self.settings.predictor, h, &mut self.lambda);
+            let rho = self.contraction(sides).ok();
+            sides.restore()?;
+            return Err(IterationError::NotConverged { t, h, info, rho });
         }
-        if policy == OnFailure::Stop || depth == HALVINGS || self.settings.max_iterations == 1 {
-            return Err(IterationError::NotConverged { t, h, info });
-        }
-        let first = self.step_or_halve(train_track, bridge, t, 0.5 * h, depth + 1)?;
-        let second = self.step_or_halve(train_track, bridge, t + 0.5 * h, 0.5 * h, depth + 1)?;
+        sides.restore()?;
+        let first = self.step_or_halve(&mut sides.over(t, 0.5 * h), depth + 1)?;
+        let second = self.step_or_halve(&mut sides.over(t + 0.5 * h, 0.5 * h), depth + 1)?;
         Ok(StepInfo {
             iterations: info.iterations + first.iterations + second.iterations,
+            train_track_trials: info.train_track_trials + first.train_track_trials + second.train_track_trials,
             roll_backs: info.roll_backs + 1 + first.roll_backs + second.roll_backs,
             halvings: 1 + first.halvings + second.halvings,
+            rescues: info.rescues + first.rescues + second.rescues,
             ..second
         })
     }
 
-    fn try_step(
-        &mut self,
-        train_track: &mut dyn Subsystem,
-        bridge: &mut dyn Subsystem,
-        t: f64,
-        h: f64,
-    ) -> Result<StepInfo, IterationError> {
-        let interpolate_forces = bridge.can_interpolate() && !self.settings.hold_forces;
-        let interpolate_motion = train_track.can_interpolate();
-        let implicit = self.settings.max_iterations > 1;
-        if implicit {
-            train_track.save()?;
-            bridge.save()?;
+    fn try_step(&mut self, sides: &mut Sides) -> Result<StepInfo, IterationError> {
+        sides.save()?;
+        self.forces.predict(self.settings.predictor, sides.h, &mut self.lambda);
+        if self.report.contraction.is_none() {
+            self.report.contraction = Some(self.contraction(sides)?);
         }
-        self.forces.predict(self.settings.predictor, h, &mut self.lambda);
-        self.iterate(t, self.settings.max_iterations, |this| {
-            // Also before the first trial: some FMUs step differently the first time than after a restored state.
-            if implicit {
-                train_track.restore()?;
-                bridge.restore()?;
+        if self.strategy.wants_model() {
+            let model = self.identify(sides)?;
+            self.strategy.take(model, sides.h);
+            self.note(sides.t);
+        }
+        self.strategy.begin_step(sides.h);
+        let limit = self.settings.max_iterations;
+        let plain = self.settings.method == Method::FixedPoint;
+        let (info, wild) = match self.iterate(sides, Mode::RollBack, limit) {
+            Ok(info) if info.outcome == Outcome::Converged || plain => return Ok(info),
+            Ok(info) => (info, None),
+            // Not the step is impossible, but forces that were tried on the way.
+            Err(wild @ (IterationError::Subsystem(_) | IterationError::NotFinite { .. }))
+                if self.made > 1 && !plain =>
+            {
+                let (iterations, roll_backs) = (self.made, self.made - 1);
+                (StepInfo { iterations, roll_backs, train_track_trials: iterations, ..StepInfo::default() }, Some(wild))
             }
-            send(bridge, this.forces.now(), &this.lambda, h, interpolate_forces, &mut this.sent_force)?;
-            bridge.step(t, h, implicit)?;
-            bridge.get_outputs(&mut this.motion)?;
-            send(train_track, &this.motion_now, &this.motion, h, interpolate_motion, &mut this.sent_motion)?;
-            train_track.step(t, h, implicit)?;
-            train_track.get_outputs(&mut this.answer)?;
-            Ok(())
+            Err(error) => return Err(error),
+        };
+        self.forces.predict(self.settings.predictor, sides.h, &mut self.lambda);
+        self.strategy.begin_rescue(self.report.contraction);
+        let rescued = self.iterate(sides, Mode::RollBack, limit).map_err(|error| wild.unwrap_or(error))?;
+        Ok(StepInfo {
+            iterations: info.iterations + rescued.iterations,
+            train_track_trials: info.train_track_trials + rescued.train_track_trials,
+            roll_backs: info.roll_backs + 1 + rescued.roll_backs,
+            rescues: 1,
+            ..rescued
         })
     }
 
-    /// λ = G(λ) by trials; `trial` computes the answer to `self.lambda`.
-    fn iterate(
-        &mut self,
-        t: f64,
-        limit: usize,
-        mut trial: impl FnMut(&mut Self) -> Result<(), Failure>,
-    ) -> Result<StepInfo, IterationError> {
-        self.acceleration.begin_step();
-        let (mut k, mut before, mut contraction) = (0, 0.0, 0.0);
-        let (outcome, residual) = loop {
-            trial(self)?;
-            k += 1;
-            let (mut squared_residual, mut squared_answer) = (0.0, 0.0);
-            for ((r, answer), lambda) in self.residual.iter_mut().zip(&self.answer).zip(&self.lambda) {
-                *r = answer - lambda;
-                squared_residual += *r * *r;
-                squared_answer += answer * answer;
-            }
-            let residual = squared_residual.sqrt() / squared_answer.sqrt().max(self.settings.force_scale);
-            if !residual.is_finite() {
-                return Err(IterationError::NotFinite { t });
-            }
-            if before > 0.0 {
-                contraction = residual / before;
-            }
-            if residual <= self.settings.tolerance {
-                break (Outcome::Converged, residual);
-            }
-            if k == limit {
-                break (Outcome::IterationLimit, residual);
-            }
-            before = residual;
-            self.acceleration.update(&mut self.lambda, &self.residual);
-        };
-        self.acceleration.end_step();
-        Ok(StepInfo { outcome, iterations: k, residual, contraction, roll_backs: k - 1, halvings: 0 })
+    /// Notes the method in force from `t` on.
+    fn note(&mut self, t: f64) {
+        self.report.switches.push((t, self.strategy.method()));
     }
-}
-
-/// Sends a straight line from `from` to `to` over a step of `h`: as value and rate, or as the held mean.
-fn send(
-    to_whom: &mut dyn Subsystem,
-    from: &[f64],
-    to: &[f64],
-    h: f64,
-    interpolate: bool,
-    buffer: &mut [f64],
-) -> Result<(), Failure> {
-    for ((b, from), to) in buffer.iter_mut().zip(from).zip(to) {
-        *b = if interpolate { (to - from) / h } else { 0.5 * (from + to) };
-    }
-    if interpolate { to_whom.set_inputs(from, Some(buffer)) } else { to_whom.set_inputs(buffer, None) }
 }

@@ -6,21 +6,31 @@
 //! Standard library only.
 
 pub mod acceleration;
+pub mod dense;
+mod exchange;
+pub mod explicit;
+mod identify;
 pub mod in_process;
 pub mod instance;
 pub mod interface;
 pub mod iteration;
 pub mod model;
+pub mod newton;
 pub mod predictor;
+pub mod quasi_newton;
 pub mod report;
 pub mod run;
 pub mod settings;
 pub mod snapshot;
+mod strategy;
 pub mod subsystem;
+mod trials;
 
 pub use in_process::InProcess;
 pub use instance::Instance;
 pub use interface::{Causality, Interface, Kind, Values, Variable};
 pub use iteration::{Coupling, IterationError, Outcome, Settings, StepInfo};
 pub use model::{Model, ModelError};
+pub use report::Report;
+pub use settings::{Method, OnFailure};
 pub use subsystem::{Failure, Subsystem};

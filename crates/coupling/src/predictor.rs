@@ -1,49 +1,88 @@
 //! First trial of a step, extrapolated from the accepted forces of the steps before.
 
-/// λ⁰ of a step.
+use std::collections::VecDeque;
+
+/// λ⁰ of a step: the polynomial through as many accepted forces.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Predictor {
     /// λ_n.
     Constant,
-    /// λ_n + (λ_n − λ_{n−1}) h/h_{n−1}.
+    /// Through λ_n, λ_{n−1}.
     Linear,
+    /// Through λ_n … λ_{n−2}.
+    Quadratic,
+    /// Through λ_n … λ_{n−3}.
+    Cubic,
 }
 
-/// The accepted forces at t_n and t_{n−1}.
+impl Predictor {
+    /// Forces the polynomial goes through.
+    fn points(self) -> usize {
+        match self {
+            Self::Constant => 1,
+            Self::Linear => 2,
+            Self::Quadratic => 3,
+            Self::Cubic => 4,
+        }
+    }
+}
+
+/// Accepted forces kept at most.
+const LEVELS: usize = 4;
+
+/// The accepted forces at t_n, t_{n−1}, … of a run; its first one counts as one that lasted for ever, λ_{−1} = λ_0.
 #[derive(Debug)]
 pub struct History {
-    now: Vec<f64>,
-    before: Vec<f64>,
-    /// h_{n−1}; zero while there is no step before, λ_{−1} = λ_0.
-    step: f64,
+    /// Newest first.
+    levels: VecDeque<Vec<f64>>,
+    /// Length of the step that led to each level, s; zero for λ_0.
+    steps: VecDeque<f64>,
+    /// Levels in use.
+    known: usize,
 }
 
 impl History {
     /// Begins with zero forces.
     pub fn new(n: usize) -> Self {
-        Self { now: vec![0.0; n], before: vec![0.0; n], step: 0.0 }
+        Self { levels: vec![vec![0.0; n]; LEVELS].into(), steps: vec![0.0; LEVELS].into(), known: 1 }
     }
     /// λ_n.
     pub fn now(&self) -> &[f64] {
-        &self.now
+        &self.levels[0]
     }
     /// Begins a run with λ_0.
     pub fn start(&mut self, lambda: &[f64]) {
-        self.now.copy_from_slice(lambda);
-        self.before.copy_from_slice(lambda);
-        self.step = 0.0;
+        self.levels[0].copy_from_slice(lambda);
+        self.known = 1;
     }
     /// λ_{n+1} was accepted after a step of `h` seconds.
     pub fn accept(&mut self, lambda: &[f64], h: f64) {
-        std::mem::swap(&mut self.now, &mut self.before);
-        self.now.copy_from_slice(lambda);
-        self.step = h;
+        self.levels.rotate_right(1);
+        self.levels[0].copy_from_slice(lambda);
+        self.steps.rotate_right(1);
+        self.steps[0] = h;
+        self.known = (self.known + 1).min(LEVELS);
     }
-    /// λ⁰ for a step of `h` seconds.
+
+    /// λ⁰ for a step of `h` seconds, by Lagrange's formula:
+    ///
+    /// ```text
+    /// λ⁰ = Σ_i λ_{n−i} Π_{j≠i} (h + a_j)/(a_j − a_i),   a_i = t_n − t_{n−i}
+    /// ```
     pub fn predict(&self, predictor: Predictor, h: f64, lambda: &mut [f64]) {
-        let ratio = if predictor == Predictor::Linear && self.step > 0.0 { h / self.step } else { 0.0 };
-        for ((l, now), before) in lambda.iter_mut().zip(&self.now).zip(&self.before) {
-            *l = now + ratio * (now - before);
+        let points = predictor.points().min(self.known);
+        let mut age = [0.0; LEVELS];
+        for i in 1..points {
+            age[i] = age[i - 1] + self.steps[i - 1];
+        }
+        lambda.copy_from_slice(&self.levels[0]);
+        for i in 1..points {
+            let others = (0..points).filter(|j| *j != i);
+            let weight: f64 = others.map(|j| (h + age[j]) / (age[j] - age[i])).product();
+            // The weights sum up to 1: written as differences from λ_n, equal forces are predicted without rounding.
+            for ((l, then), now) in lambda.iter_mut().zip(&self.levels[i]).zip(&self.levels[0]) {
+                *l += weight * (then - now);
+            }
         }
     }
 }
@@ -53,14 +92,35 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_straight_line_is_predicted_exactly_whatever_the_steps() {
+    fn a_polynomial_is_predicted_exactly_whatever_the_steps() {
+        let curve = |t: f64| [2.0 + t, 1.0 - t * t, t * t * t];
+        let mut history = History::new(3);
+        history.start(&curve(0.0));
+        let mut t = 0.0;
+        for h in [1.0, 0.5, 0.5, 2.0] {
+            t += h;
+            history.accept(&curve(t), h);
+        }
+        let mut lambda = [0.0; 3];
+        for (predictor, exact) in [(Predictor::Linear, 1), (Predictor::Quadratic, 2), (Predictor::Cubic, 3)] {
+            history.predict(predictor, 0.25, &mut lambda);
+            let error = |i: usize| (lambda[i] - curve(t + 0.25)[i]).abs();
+            assert!((0..exact).all(|i| error(i) < 1e-12), "{predictor:?}: {lambda:?}");
+            assert!((exact..3).all(|i| error(i) > 1e-3), "{predictor:?}: {lambda:?}");
+        }
+        history.predict(Predictor::Constant, 0.5, &mut lambda);
+        assert_eq!(lambda, curve(t));
+    }
+
+    #[test]
+    fn at_the_start_of_a_run_the_first_force_is_repeated() {
         let mut history = History::new(1);
         history.start(&[1.0]);
-        history.accept(&[3.0], 1.0);
         let mut lambda = [0.0];
-        history.predict(Predictor::Linear, 0.5, &mut lambda);
+        history.predict(Predictor::Cubic, 1.0, &mut lambda);
+        assert_eq!(lambda, [1.0]);
+        history.accept(&[3.0], 1.0);
+        history.predict(Predictor::Cubic, 0.5, &mut lambda);
         assert_eq!(lambda, [4.0]);
-        history.predict(Predictor::Constant, 0.5, &mut lambda);
-        assert_eq!(lambda, [3.0]);
     }
 }

@@ -2,6 +2,38 @@
 
 use crate::predictor::Predictor;
 
+/// How the next trial follows from the residual.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Method {
+    /// λ ← G(λ): the paper's.
+    FixedPoint,
+    /// Aitken's dynamic relaxation.
+    Aitken,
+    /// Interface quasi-Newton.
+    IqnIls,
+    /// Newton's method with a Jacobian identified once.
+    Newton,
+    /// Quasi-Newton, and Newton once the trials show that its model pays.
+    #[default]
+    Auto,
+    /// No iteration, as for a bridge that cannot roll back: see [`crate::explicit`].
+    Explicit,
+}
+
+impl Method {
+    /// Its name in scenario files and results.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::FixedPoint => "fixed-point",
+            Self::Aitken => "aitken",
+            Self::IqnIls => "iqn-ils",
+            Self::Newton => "newton",
+            Self::Auto => "auto",
+            Self::Explicit => "explicit",
+        }
+    }
+}
+
 /// What to do with a step that does not converge.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum OnFailure {
@@ -16,8 +48,10 @@ pub enum OnFailure {
 /// Settings of the iteration.
 #[derive(Clone, Copy, Debug)]
 pub struct Settings {
-    /// Aitken's relaxation, or the plain fixed point.
-    pub aitken: bool,
+    /// Acceleration.
+    pub method: Method,
+    /// Earlier steps whose trials the quasi-Newton methods remember.
+    pub reuse: usize,
     /// First trial.
     pub predictor: Predictor,
     /// On |r|, relative to max(|G|, `force_scale`).

@@ -1,4 +1,4 @@
-//! The only view the iteration has of a subsystem: six verbs over two vectors.
+//! The only view the iteration has of a subsystem: a few verbs over two vectors.
 
 /// A subsystem that did not do what it was asked.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -56,4 +56,23 @@ pub trait Subsystem {
 
     /// Whether [`Subsystem::set_inputs`] understands rates.
     fn can_interpolate(&self) -> bool;
+
+    /// Whether [`Subsystem::save`] and [`Subsystem::restore`] work.
+    fn can_roll_back(&self) -> bool {
+        true
+    }
+
+    /// Whether [`Subsystem::derivative`] works.
+    fn can_derive(&self) -> bool {
+        false
+    }
+
+    /// Change of all coupled outputs at the end of the last step along a change `seed` of the input values it was
+    /// given, in the way it was given them (with rates or held).
+    ///
+    /// # Errors
+    /// The subsystem cannot.
+    fn derivative(&mut self, _seed: &[f64], _change: &mut [f64]) -> Result<(), Failure> {
+        Err(Failure { subsystem: "a subsystem".into(), message: "it provides no directional derivatives".into() })
+    }
 }

@@ -2,7 +2,8 @@
 
 use ttb_coupling::iteration::{IterationError, OnFailure, Outcome, Settings};
 use ttb_coupling::predictor::Predictor;
-use ttb_coupling::{Coupling, Failure, Subsystem};
+use ttb_coupling::report::Side;
+use ttb_coupling::{Coupling, Failure, Method, Subsystem};
 
 /// Answers `constant(t) + gain · (input at the end of the step)`; counts what it was asked.
 struct Line {
@@ -60,7 +61,8 @@ impl Subsystem for Line {
 
 fn settings() -> Settings {
     Settings {
-        aitken: true,
+        method: Method::Aitken,
+        reuse: 2,
         predictor: Predictor::Linear,
         tolerance: 1e-12,
         force_scale: 1.0,
@@ -89,8 +91,9 @@ fn every_step_ends_on_the_known_force() {
         assert!((coupling.forces()[0] / exact - 1.0).abs() < 1e-10, "{} {exact}", coupling.forces()[0]);
         assert_eq!(info.roll_backs, info.iterations - 1);
     }
-    // One restored state more than trials repeated: also before the first trial of a step.
+    // One restored state more than trials repeated: also before the first trial of a step, and of ρ.
     assert_eq!(bridge.roll_backs, bridge.steps.len());
+    assert_eq!(coupling.report().contraction.map(|rho| (rho * 1e6).round()), Some(4e5));
 }
 
 #[test]
@@ -111,11 +114,12 @@ fn a_step_that_does_not_converge_follows_the_policy() {
         let mut coupling = Coupling::new(
             1,
             1,
-            Settings { aitken: false, tolerance: 1e-6, max_iterations: 2, on_failure, ..settings() },
+            Settings { method: Method::FixedPoint, tolerance: 1e-6, max_iterations: 2, on_failure, ..settings() },
         );
         coupling.initialise(&mut train_track, &mut bridge, 0.0).unwrap();
         let result = coupling.step(&mut train_track, &mut bridge, 0.0, 1.0);
-        (result, bridge.steps)
+        // Without the four trials of the first step that measure ρ.
+        (result, bridge.steps.split_off(4))
     };
     let (stopped, _) = run(OnFailure::Stop);
     assert!(matches!(stopped, Err(IterationError::NotConverged { t: 0.0, h: 1.0, .. })));
@@ -155,5 +159,7 @@ fn a_force_that_is_no_number_stops_the_run_at_its_step() {
     coupling.initialise(&mut train_track, &mut bridge, 0.0).unwrap();
     coupling.step(&mut train_track, &mut bridge, 0.0, 0.5).unwrap();
     let stopped = coupling.step(&mut train_track, &mut bridge, 0.5, 0.5);
-    assert_eq!(stopped, Err(IterationError::NotFinite { t: 0.5 }));
+    let Err(IterationError::NotFinite { t, side, index, value }) = stopped else { panic!("{stopped:?}") };
+    assert_eq!((t, side, index), (0.5, Side::TrainTrack, 0));
+    assert!(value.is_nan());
 }

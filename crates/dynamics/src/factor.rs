@@ -39,7 +39,7 @@ const LARGE: usize = 3000;
 pub struct Layout {
     /// Node of every degree of freedom; empty: each is its own.
     pub node_of: Vec<u32>,
-    /// Coordinates (x, y, z) of every node, m; empty: unknown.
+    /// Coordinates (x, y, z) of every node, m; empty: unknown. Nodes without degrees of freedom may follow.
     pub place: Vec<[f64; 3]>,
     /// Degrees of freedom to eliminate last.
     pub last: Vec<u32>,
@@ -65,9 +65,10 @@ impl Symbolic {
         if pattern.ncols() < LARGE {
             return Ok(Self::Simplicial(simplicial::Pattern::new(pattern)?));
         }
-        let known = layout.order.len() == pattern.ncols();
-        let order = if known { layout.order.clone() } else { order(pattern, layout)? };
-        Ok(Self::Supernodal(Pattern::new(pattern, order)?))
+        if layout.order.len() == pattern.ncols() {
+            return Ok(Self::Supernodal(Pattern::new(pattern, layout.order.clone())?));
+        }
+        Ok(Self::Supernodal(best(pattern, layout)?))
     }
 
     /// Number of negative eigenvalues of `a` (Sylvester's law of inertia).
@@ -90,8 +91,9 @@ impl Symbolic {
     }
 }
 
-/// An order of elimination for a large model.
-fn order(pattern: SymbolicSparseColMatRef<'_, u32>, layout: &Layout) -> Result<Vec<u32>, FactorError> {
+/// The better of two orders: nested dissection, where coordinates are known, and minimum degree. Which one wins depends on
+/// the model: dissection on wide plates, minimum degree on long boxes.
+fn best(pattern: SymbolicSparseColMatRef<'_, u32>, layout: &Layout) -> Result<Pattern, FactorError> {
     let n = pattern.ncols();
     let (starts, rows) = (pattern.col_ptr(), pattern.row_idx());
     let own: Vec<u32>;
@@ -102,18 +104,22 @@ fn order(pattern: SymbolicSparseColMatRef<'_, u32>, layout: &Layout) -> Result<V
         &own
     };
     let graph = Graph::new(starts, rows, node_of);
-    let nodes = if layout.place.len() == graph.nodes() {
-        nested_dissection(&graph, &layout.place)
-    } else {
-        minimum_degree(&graph)?
-    };
-    let mut rank = vec![0_u32; nodes.len()];
-    nodes.iter().zip(0..).for_each(|(&node, at)| rank[node as usize] = at);
     let mut last = vec![false; n];
     layout.last.iter().for_each(|&dof| last[dof as usize] = true);
-    let mut order: Vec<u32> = (0..n as u32).collect();
-    order.sort_by_key(|&dof| (last[dof as usize], rank[node_of[dof as usize] as usize]));
-    Ok(postordered(starts, rows, &order))
+    let finish = |nodes: Vec<u32>| {
+        let mut rank = vec![0_u32; nodes.len()];
+        nodes.iter().zip(0..).for_each(|(&node, at)| rank[node as usize] = at);
+        let mut order: Vec<u32> = (0..n as u32).collect();
+        order.sort_by_key(|&dof| (last[dof as usize], rank[node_of[dof as usize] as usize]));
+        Pattern::new(pattern, postordered(starts, rows, &order))
+    };
+    let by_degree = finish(minimum_degree(&graph)?)?;
+    if layout.place.len() < graph.nodes() {
+        return Ok(by_degree);
+    }
+    let dissected = finish(nested_dissection(&graph, &layout.place))?;
+    eprintln!("amd {} nd {}", by_degree.all_entries(), dissected.all_entries());
+    Ok(if dissected.all_entries() < by_degree.all_entries() { dissected } else { by_degree })
 }
 
 /// Approximate minimum degree of the nodes' graph.

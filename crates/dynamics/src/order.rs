@@ -71,7 +71,7 @@ impl Graph {
 }
 
 /// Where cuts are tried, as shares of a part.
-const CUTS: [f64; 5] = [0.5, 0.45, 0.55, 0.4, 0.6];
+const CUTS: [f64; 9] = [0.5, 0.475, 0.525, 0.45, 0.55, 0.425, 0.575, 0.4, 0.6];
 
 /// An elimination order of the nodes from their coordinates.
 pub fn nested_dissection(graph: &Graph, place: &[[f64; 3]]) -> Vec<u32> {
@@ -124,7 +124,7 @@ impl Dissection<'_> {
                 let (separator, rest) = self.separate(&along, at);
                 let [left, right] = [rest[0].len() as f64, rest[1].len() as f64];
                 let lopsided = (left - right).abs() / part.len() as f64;
-                let cost = separator.len() as f64 * (1.0 + lopsided * lopsided * 2.0);
+                let cost = separator.len() as f64 * (1.0 + lopsided * lopsided * 4.0);
                 if best.as_ref().is_none_or(|(least, ..)| cost < *least) {
                     best = Some((cost, separator, rest));
                 }

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use ttb_scenario::deck::Deck;
 use ttb_scenario::spec::{BridgeSpec, TrainTrackSpec};
 use ttb_scenario::types::Scenario;
-use ttb_scenario::{Checked, default_scenario_text, from_str, load, schema};
+use ttb_scenario::{Checked, default_scenario_text, from_str, load, model_schema, schema};
 
 fn folder() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples")
@@ -106,14 +106,17 @@ fn the_hash_tells_contents_apart_and_no_layout() {
 }
 
 #[test]
-fn the_schema_names_itself_and_describes_every_field() {
-    let schema = schema();
-    assert_eq!(schema["$schema"], "https://json-schema.org/draft/2020-12/schema");
-    assert!(schema["$id"].is_string() && schema["title"].is_string());
-    for (name, definition) in schema["$defs"].as_object().unwrap() {
-        assert!(definition["description"].is_string(), "{name}");
-        for (key, property) in definition["properties"].as_object().into_iter().flatten() {
-            assert!(property["description"].is_string(), "{name}.{key}");
+fn the_schemas_name_themselves_and_describe_every_field() {
+    for schema in [schema(), model_schema()] {
+        assert_eq!(schema["$schema"], "https://json-schema.org/draft/2020-12/schema");
+        assert!(schema["$id"].is_string() && schema["title"].is_string());
+        let definitions = schema["$defs"].as_object().unwrap().iter().map(|(name, schema)| (name.as_str(), schema));
+        for (name, definition) in definitions.chain([("the file", &schema)]) {
+            assert!(definition["description"].is_string(), "{name}");
+            for (key, property) in definition["properties"].as_object().into_iter().flatten() {
+                assert!(property["description"].is_string(), "{name}.{key}");
+            }
         }
     }
+    assert_ne!(schema()["$id"], model_schema()["$id"]);
 }

@@ -14,7 +14,7 @@ use ttb_scenario::GRAVITY;
 use ttb_scenario::space::{Motion, motion};
 use ttb_scenario::types::{Freedom, Model};
 
-use super::System;
+use super::diagonal::Diagonal;
 use super::elements::{self, Kind, Placed, coordinates};
 use super::freedoms::{Fate, Freedoms, position};
 use super::report::{Reaction, Reactions, SelfCheck};
@@ -36,13 +36,14 @@ pub enum Statics<'a> {
 pub fn self_check(model: &Model, statics: Statics<'_>) -> Result<SelfCheck, ModelError> {
     let freedoms = Freedoms::new(model)?;
     let mut audit = Audit::new(model, &freedoms);
-    let mut system = System::new(&freedoms);
+    let mut stiffness = Diagonal::new(&freedoms);
     for element in elements::all(model, &freedoms.index) {
         let element = element?;
-        system.add(&element);
-        audit.weigh(&element);
+        let matrices = element.kind.matrices();
+        stiffness.add(&freedoms, &element.motions(), &matrices);
+        audit.weigh(&element, &matrices);
     }
-    let loose: Vec<String> = system.loose().into_iter().map(|dof| freedoms.name(dof)).collect();
+    let loose: Vec<String> = stiffness.loose(&freedoms).into_iter().map(|dof| freedoms.name(dof)).collect();
     let (mass, moments) = (audit.mass, audit.moments);
     let centre = moments.map(|moment| if mass > 0.0 { moment / mass } else { 0.0 });
     let (mut mechanism, mut reactions) = (None, None);
@@ -94,12 +95,11 @@ impl<'a> Audit<'a> {
         Self { model, freedoms, elements: 0, mass: 0.0, moments: [0.0; 3], load }
     }
 
-    fn weigh(&mut self, element: &Placed) {
+    fn weigh(&mut self, element: &Placed, matrices: &Matrices) {
         self.elements += 1;
-        let matrices = element.kind.matrices();
         let rigid = |freedom: Freedom| rigid(self.model, element, freedom);
-        let (down, turned) = (product(&matrices, &matrices.m, &rigid(Freedom::Z)), rigid(Freedom::Ry));
-        let along = product(&matrices, &matrices.m, &rigid(Freedom::X));
+        let (down, turned) = (product(matrices, &matrices.m, &rigid(Freedom::Z)), rigid(Freedom::Ry));
+        let along = product(matrices, &matrices.m, &rigid(Freedom::X));
         let own = [-dot(&down, &turned), dot(&down, &rigid(Freedom::Rx)), dot(&along, &turned)];
         let mass = dot(&down, &rigid(Freedom::Z));
         self.mass += mass;

@@ -7,6 +7,7 @@ use ttb_scenario::space::{Index, Motion, Part, Ties, motion, parts};
 use ttb_scenario::types::{Freedom, Model};
 
 use super::elements;
+use super::tied::{Sums, Tied};
 use crate::assembled::Names;
 use crate::deck::Row;
 
@@ -209,48 +210,4 @@ fn words(motion: Motion, numbers: &[u32]) -> String {
 /// Position of a node that some list names.
 pub(super) fn position(index: &Index, number: u32, list: &str) -> Result<usize, ModelError> {
     index.position(number).ok_or_else(|| ModelError(format!("bridge: {list}: there is no node numbered {number}")))
-}
-
-/// Weights with each motion once, in the order in which they came.
-#[derive(Default)]
-struct Sums {
-    list: Vec<(u32, f64)>,
-}
-
-impl Sums {
-    fn add(&mut self, key: u32, weight: f64) {
-        match self.list.iter_mut().find(|(other, _)| *other == key) {
-            Some((_, sum)) => *sum += weight,
-            None => self.list.push((key, weight)),
-        }
-    }
-}
-
-/// T of one element: its motions as combinations of degrees of freedom.
-pub(super) struct Tied {
-    pub dofs: Vec<u32>,
-    /// Per motion: (position in `dofs`, weight).
-    pub t: Vec<Vec<(usize, f64)>>,
-}
-
-impl Tied {
-    /// Tᵀ A T of an element's matrix, row by row.
-    pub fn transform(&self, a: &[f64]) -> Vec<Vec<f64>> {
-        let n = self.t.len();
-        let mut whole = vec![vec![0.0; self.dofs.len()]; self.dofs.len()];
-        for (i, row) in self.t.iter().enumerate() {
-            for (j, column) in self.t.iter().enumerate() {
-                let value = a[i * n + j];
-                for (p, left) in row {
-                    column.iter().for_each(|(q, right)| whole[*p][*q] += left * value * right);
-                }
-            }
-        }
-        whole
-    }
-
-    /// The degrees of freedom as [`ttb_dynamics::sparse::Assembly::add`] takes them.
-    pub fn present(&self) -> Vec<Option<u32>> {
-        self.dofs.iter().map(|dof| Some(*dof)).collect()
-    }
 }

@@ -9,10 +9,13 @@
 //! u = T q. Ties are eliminated exactly, element by element: Tᵀ K T, Tᵀ M T, Tᵀ C T, and rows r T.
 
 mod audit;
+mod carriers;
+mod diagonal;
 mod elements;
 mod freedoms;
 mod report;
 mod solids;
+mod tied;
 mod track;
 
 use ttb_coupling::ModelError;
@@ -21,6 +24,7 @@ use ttb_scenario::types::{Direction, Freedom, Model, Point};
 
 use crate::assembled::{Assembled, Monitor};
 use crate::deck::Row;
+use diagonal::Diagonal;
 use elements::{Kind, Placed};
 use freedoms::Freedoms;
 use track::Track;
@@ -43,7 +47,7 @@ pub fn assemble(model: &Model, supports: &[f64], points: &[Point]) -> Result<Ass
     for element in elements::all(model, &freedoms.index) {
         system.add(&element?);
     }
-    let loose = system.loose();
+    let loose = system.stiffness.loose(&freedoms);
     if !loose.is_empty() {
         let mut names: Vec<String> =
             loose.iter().take(NAMED).map(|dof| format!("the {}", freedoms.name(*dof))).collect();
@@ -98,34 +102,26 @@ fn monitor(point: &Point, freedoms: &Freedoms, track: &Track) -> Result<Row, Mod
 struct System<'a> {
     freedoms: &'a Freedoms,
     equations: Assembly,
-    /// Diagonal of K.
-    diagonal: Vec<f64>,
+    stiffness: Diagonal,
     /// kg.
     mass: f64,
 }
 
 impl<'a> System<'a> {
     fn new(freedoms: &'a Freedoms) -> Self {
-        let n = freedoms.motions.len();
-        Self { freedoms, equations: Assembly::new(n), diagonal: vec![0.0; n], mass: 0.0 }
+        let equations = Assembly::new(freedoms.motions.len());
+        Self { freedoms, equations, stiffness: Diagonal::new(freedoms), mass: 0.0 }
     }
 
     fn add(&mut self, element: &Placed) {
-        let matrices = element.kind.matrices();
+        let (matrices, motions) = (element.kind.matrices(), element.motions());
         self.mass += vertical(matrices.n, &matrices.m);
-        let motions = element.motions();
+        self.stiffness.add(self.freedoms, &motions, &matrices);
         if let Some(dofs) = self.freedoms.plain(&motions) {
             matrices.add_to(&mut self.equations, &dofs);
-            for (i, dof) in dofs.iter().enumerate().filter_map(|(i, dof)| Some((i, (*dof)?))) {
-                self.diagonal[dof as usize] += matrices.k[i * (matrices.n + 1)];
-            }
         } else {
             let tied = self.freedoms.tied(&motions);
-            let (k, m) = (tied.transform(&matrices.k), tied.transform(&matrices.m));
-            for (i, dof) in tied.dofs.iter().enumerate() {
-                self.diagonal[*dof as usize] += k[i][i];
-            }
-            self.equations.add(&tied.present(), &k, &m);
+            self.equations.add(&tied.present(), &tied.transform(&matrices.k), &tied.transform(&matrices.m));
         }
         if let Kind::Spring { spring, .. } = &element.kind
             && spring.damping.iter().any(|c| *c > 0.0)
@@ -133,19 +129,6 @@ impl<'a> System<'a> {
             let tied = self.freedoms.tied(&motions);
             self.equations.add_damping(&tied.present(), &tied.transform(&element.kind.damping()));
         }
-    }
-
-    /// Degrees of freedom without stiffness of their own.
-    fn loose(&self) -> Vec<usize> {
-        /// Less than this of what its node has in other directions is rounding.
-        const ROUNDING: f64 = 1e-15;
-        let mut greatest = vec![0.0_f64; self.freedoms.nodes * 2];
-        let place = |motion: &u32| (motion / 3) as usize;
-        for (k, motion) in self.diagonal.iter().zip(&self.freedoms.motions) {
-            greatest[place(motion)] = greatest[place(motion)].max(*k);
-        }
-        let all = self.diagonal.iter().zip(&self.freedoms.motions).enumerate();
-        all.filter(|(_, (k, motion))| **k <= ROUNDING * greatest[place(motion)]).map(|(dof, _)| dof).collect()
     }
 }
 

@@ -8,22 +8,17 @@
 //!
 //! The same weights distribute a force, so that its power enters the model and an eccentric track twists the deck.
 
-use std::collections::HashSet;
-
 use ttb_coupling::ModelError;
 use ttb_scenario::space::{Index, motion};
-use ttb_scenario::types::{DeckCarrier, Freedom, Model};
+use ttb_scenario::types::{Freedom, Model};
 
+use super::carriers::{Carrier, EDGE, Of, axis, carriers};
 use super::elements::{Kind, coordinates};
-use super::freedoms::{Weights, position};
+use super::freedoms::Weights;
 use super::solids::{self, Sections};
 
 /// Down.
 const DOWN: [f64; 3] = [0.0, 0.0, 1.0];
-/// In an element's own coordinates, or m: on its edge.
-const EDGE: f64 = 1e-6;
-/// A beam that leads along the track by less than this of its length does not carry it.
-const ACROSS: f64 = 0.1;
 
 /// What carries the track, sorted into strips along x.
 pub(super) struct Track<'a> {
@@ -37,34 +32,9 @@ pub(super) struct Track<'a> {
     what: &'static str,
 }
 
-/// An element or a node that may carry the track.
-struct Carrier<'a> {
-    nodes: Vec<usize>,
-    of: Of<'a>,
-    /// Extent in plan, m.
-    x: [f64; 2],
-    y: [f64; 2],
-}
-
-enum Of<'a> {
-    Shell(&'a str),
-    Beam(&'a ttb_scenario::types::Beams),
-    Node,
-}
-
 impl<'a> Track<'a> {
     pub fn new(model: &'a Model, index: &Index) -> Result<Self, ModelError> {
-        let (mut carriers, what) = match &model.deck.on {
-            DeckCarrier::Shells(names) => (shells(model, index, names)?, "shell"),
-            DeckCarrier::Beams(names) => (beams(model, index, names)?, "beam"),
-            DeckCarrier::Nodes(numbers) => (nodes(model, index, numbers)?, "node"),
-        };
-        if carriers.is_empty() {
-            return Err(ModelError(format!("bridge: no {what} of the model carries the track")));
-        }
-        if what == "node" {
-            spread(&mut carriers);
-        }
+        let (carriers, what) = carriers(model, index)?;
         let begin = carriers.iter().map(|carrier| carrier.x[0]).fold(f64::INFINITY, f64::min);
         let end = carriers.iter().map(|carrier| carrier.x[1]).fold(f64::NEG_INFINITY, f64::max);
         let count = (carriers.len() / 4).clamp(1, 100_000);
@@ -207,78 +177,4 @@ fn strip(x: f64, begin: f64, width: f64, count: usize) -> usize {
 /// From an element's places to motions of the model.
 fn in_model(nodes: &[usize], weights: ttb_elements::Weights) -> Weights {
     weights.into_iter().map(|(place, weight)| (motion(nodes[place / 6], Freedom::ALL[place % 6]), weight)).collect()
-}
-
-fn range(values: impl Iterator<Item = f64>) -> [f64; 2] {
-    values.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], value| [low.min(value), high.max(value)])
-}
-
-fn shells<'a>(model: &'a Model, index: &Index, names: &[String]) -> Result<Vec<Carrier<'a>>, ModelError> {
-    let mut carriers = Vec::new();
-    for list in model.shells.iter().filter(|list| names.contains(&list.section)) {
-        for element in &list.elements {
-            let nodes: Vec<usize> =
-                element.iter().map(|number| position(index, *number, "shells")).collect::<Result<_, _>>()?;
-            let [x, y] = [0, 1].map(|axis| range(nodes.iter().map(|node| coordinates(model, *node)[axis])));
-            carriers.push(Carrier { nodes, of: Of::Shell(&list.section), x, y });
-        }
-    }
-    Ok(carriers)
-}
-
-fn beams<'a>(model: &'a Model, index: &Index, names: &[String]) -> Result<Vec<Carrier<'a>>, ModelError> {
-    let mut carriers = Vec::new();
-    for list in model.beams.iter().filter(|list| names.contains(&list.section)) {
-        for element in &list.elements {
-            let [first, last] = element.map(|number| position(index, number, "beams"));
-            let nodes = [first?, last?];
-            let [a, b] = axis(model, list, nodes);
-            let length = (b[0] - a[0]).hypot(b[1] - a[1]).hypot(b[2] - a[2]);
-            if (b[0] - a[0]).abs() > ACROSS * length {
-                let [x, y] = [0, 1].map(|axis| range([a[axis], b[axis]].into_iter()));
-                carriers.push(Carrier { nodes: nodes.to_vec(), of: Of::Beam(list), x, y });
-            }
-        }
-    }
-    Ok(carriers)
-}
-
-/// Ends of a beam's axis.
-fn axis(model: &Model, list: &ttb_scenario::types::Beams, nodes: [usize; 2]) -> [[f64; 3]; 2] {
-    let arms = list.offsets.unwrap_or_default();
-    [0, 1].map(|end| {
-        let node = coordinates(model, nodes[end]);
-        [0, 1, 2].map(|axis| node[axis] + arms[end][axis])
-    })
-}
-
-fn nodes<'a>(model: &'a Model, index: &Index, numbers: &[u32]) -> Result<Vec<Carrier<'a>>, ModelError> {
-    let positions: Vec<usize> = if numbers.is_empty() {
-        (0..model.nodes.len()).collect()
-    } else {
-        let named = numbers.iter().map(|number| position(index, *number, "deck.on.nodes"));
-        named.collect::<Result<_, _>>()?
-    };
-    let mut seen = HashSet::new();
-    let once = positions.into_iter().filter(|node| seen.insert(*node));
-    let carrier = |node| {
-        let [x, y, _] = coordinates(model, node);
-        Carrier { nodes: vec![node], of: Of::Node, x: [x; 2], y: [y; 2] }
-    };
-    Ok(once.map(carrier).collect())
-}
-
-/// Every node carries halfway to the next one along x, the outermost half of the greatest gap outwards.
-fn spread(carriers: &mut [Carrier]) {
-    carriers.sort_by(|a, b| a.x[0].total_cmp(&b.x[0]));
-    let mut places: Vec<f64> = carriers.iter().map(|carrier| carrier.x[0]).collect();
-    places.dedup_by(|b, a| *b - *a <= EDGE);
-    let outwards = 0.5 * places.windows(2).map(|pair| pair[1] - pair[0]).fold(2.0 * EDGE, f64::max);
-    for carrier in carriers {
-        let x = carrier.x[0];
-        let next = places.partition_point(|place| *place < x - EDGE);
-        let before = next.checked_sub(1).map_or(x - outwards, |i| 0.5 * (places[i] + x));
-        let after = places[next..].iter().find(|place| **place > x + EDGE).map_or(x + outwards, |p| 0.5 * (p + x));
-        carrier.x = [before, after];
-    }
 }

@@ -22,6 +22,7 @@ pub fn bridge(structure: StructureSpec, length: f64, bays: usize, step: f64) -> 
         structure,
         damping: Damping::None,
         modes: None,
+        reduction: None,
         supports: (0..=bays).map(|i| length * i as f64 / bays as f64).collect(),
         points: Vec::new(),
         step,

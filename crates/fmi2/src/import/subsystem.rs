@@ -114,4 +114,17 @@ impl Subsystem for FmuSubsystem {
     fn can_interpolate(&self) -> bool {
         self.instance.can_interpolate()
     }
+
+    fn can_roll_back(&self) -> bool {
+        self.instance.can_restore()
+    }
+
+    fn can_derive(&self) -> bool {
+        self.instance.can_derive()
+    }
+
+    fn derivative(&mut self, seed: &[f64], change: &mut [f64]) -> Result<(), Failure> {
+        let derived = self.instance.directional_derivative(&self.outputs, &self.inputs, seed, change);
+        derived.map_err(|e| self.failure(&e))
+    }
 }

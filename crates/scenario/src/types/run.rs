@@ -49,8 +49,14 @@ pub enum Method {
     /// λ ← G(λ): the paper's.
     FixedPoint,
     /// Aitken's dynamic relaxation.
-    #[default]
     Aitken,
+    /// Interface quasi-Newton with a least-squares model of the trials so far.
+    IqnIls,
+    /// Newton's method with an interface Jacobian identified once, corrected as the train moves.
+    Newton,
+    /// Quasi-Newton, and Newton once the trials show that its model pays.
+    #[default]
+    Auto,
 }
 
 /// First trial force of a step.
@@ -62,6 +68,10 @@ pub enum Predictor {
     /// 2 λ_n − λ_{n−1}.
     #[default]
     Linear,
+    /// Parabola through three.
+    Quadratic,
+    /// Cubic through four.
+    Cubic,
 }
 
 /// How a trial force over the step is sent.
@@ -97,6 +107,9 @@ pub enum OnFailure {
 pub struct CouplingSettings {
     /// Acceleration of the iteration.
     pub method: Method,
+    /// Earlier steps whose trials quasi-Newton and Newton remember.
+    #[schemars(range(max = 20))]
+    pub reuse: usize,
     /// First trial.
     pub predictor: Predictor,
     /// ‖G(λ) − λ‖₂ ≤ tolerance · max(‖G(λ)‖₂, one axle load).
@@ -114,12 +127,46 @@ pub struct CouplingSettings {
 impl Default for CouplingSettings {
     fn default() -> Self {
         Self {
-            method: Method::Aitken,
+            method: Method::Auto,
+            reuse: 2,
             predictor: Predictor::Linear,
             tolerance: 1e-6,
             max_iterations: 30,
             send: Send::Auto,
             on_failure: OnFailure::Stop,
+        }
+    }
+}
+
+impl CouplingSettings {
+    /// The iteration's settings; `axle_load` is the train's greatest static one, N.
+    pub fn settings(&self, axle_load: f64) -> ttb_coupling::Settings {
+        use ttb_coupling::predictor::Predictor as First;
+        use ttb_coupling::settings as to;
+        to::Settings {
+            method: match self.method {
+                Method::FixedPoint => to::Method::FixedPoint,
+                Method::Aitken => to::Method::Aitken,
+                Method::IqnIls => to::Method::IqnIls,
+                Method::Newton => to::Method::Newton,
+                Method::Auto => to::Method::Auto,
+            },
+            reuse: self.reuse,
+            predictor: match self.predictor {
+                Predictor::Constant => First::Constant,
+                Predictor::Linear => First::Linear,
+                Predictor::Quadratic => First::Quadratic,
+                Predictor::Cubic => First::Cubic,
+            },
+            tolerance: self.tolerance,
+            force_scale: axle_load,
+            max_iterations: self.max_iterations,
+            hold_forces: self.send == Send::Mean,
+            on_failure: match self.on_failure {
+                OnFailure::Stop => to::OnFailure::Stop,
+                OnFailure::Halve => to::OnFailure::Halve,
+                OnFailure::Accept => to::OnFailure::Accept,
+            },
         }
     }
 }

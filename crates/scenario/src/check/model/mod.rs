@@ -31,9 +31,9 @@ pub(crate) fn check(model: &Model, at: &str, report: &mut Report) {
     checker.springs();
     checker.masses();
     checker.bearings();
-    checker.ties();
     checker.deck();
     let ties = Ties::new(model, &index);
+    checker.ties(&ties);
     for part in parts(model, &index, &ties).iter().filter(|part| !part.held) {
         let rule = "every part of the model must be held by bearings or springs to the ground";
         let found = format!("the part with node {} ({} nodes) is not", part.node, part.nodes);

@@ -7,10 +7,9 @@ use crate::space::{Motion, Ties, motion};
 use crate::types::Freedom;
 
 impl Checker<'_> {
-    pub(super) fn ties(&mut self) {
+    pub(super) fn ties(&mut self, ties: &Ties) {
         self.links();
         self.constraints();
-        let ties = Ties::new(self.model, self.index);
         let held: HashSet<Motion> = self.held();
         // of several motions that one place ties wrongly, the first is told
         let mut told = HashSet::new();

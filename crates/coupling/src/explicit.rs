@@ -1,0 +1,153 @@
+//! Steps of a bridge that cannot roll back: each is taken once, the train–track subsystem twice.
+//!
+//! ```text
+//! a  = (ḋ_n − ḋ_{n−1})/h_{n−1}
+//! λ̂  = G_T(d_n + h ḋ_n + ½h² a,  ḋ_n + h a)          train–track, on the deck's motion extrapolated
+//! λ  = λ̂ + (G_n − λ̂_n)                               what the last prediction was off by
+//! d, ḋ ← bridge under λ                              its only step
+//! G  = G_T(d, ḋ)                                     train–track again, on the motion that came out
+//! ```
+//!
+//! Deck and track never part; G − λ, the force that is missing, is the error estimate. The scheme is stable as long as ρ,
+//! the contraction of the iteration it stands for, is small: with directional derivatives of the bridge ρ is measured
+//! before the first step, without them a residual that grows tells.
+
+use crate::dense::{dot, norm};
+use crate::exchange::Sides;
+use crate::iteration::Coupling;
+use crate::report::{IterationError, Outcome, StepInfo};
+use crate::settings::Method;
+
+/// Largest ρ at the start for which the steps are taken. Without a train they are stable up to .25 at least; a train on
+/// the bridge raises ρ.
+pub const STABLE: f64 = 0.1;
+/// A relative residual at which a run is stopped: displacements are off by a percent then, or nothing holds any more.
+const BLOWN: f64 = 0.2;
+
+/// What a step hands to the next, and the error estimate.
+#[derive(Debug, Default)]
+pub(crate) struct Explicit {
+    /// λ̂ and what it was off by.
+    prediction: Vec<f64>,
+    error: Vec<f64>,
+    /// ḋ at the beginning of the step before, and its size.
+    velocity: Vec<f64>,
+    h: f64,
+    begun: bool,
+    /// Work of G − λ and, as sum of amounts, of G.
+    work: [f64; 2],
+}
+
+impl Coupling {
+    /// One step without roll-back of the bridge.
+    pub(crate) fn explicit_step(&mut self, sides: &mut Sides) -> Result<StepInfo, IterationError> {
+        let n = self.lambda.len();
+        let half = self.exchange.now.len() / 2;
+        if !self.explicit.begun {
+            self.explicit.prediction.resize(n, 0.0);
+            self.explicit.error.resize(n, 0.0);
+            self.explicit.velocity.extend_from_slice(&self.exchange.now[half..]);
+            (self.explicit.h, self.explicit.begun) = (sides.h, true);
+            self.refuse_strong(sides)?;
+        }
+        sides.train_track.save()?;
+        sides.train_track.restore()?;
+        self.extrapolate(sides.h);
+        let mut prediction = std::mem::take(&mut self.explicit.prediction);
+        let predicted = self.exchange.train_track(sides, &mut prediction, true);
+        self.explicit.prediction = prediction;
+        predicted?;
+        for ((l, p), e) in self.lambda.iter_mut().zip(&self.explicit.prediction).zip(&self.explicit.error) {
+            *l = p + e;
+        }
+        self.exchange.bridge(sides, self.forces.now(), &self.lambda, false)?;
+        sides.train_track.restore()?;
+        self.exchange.train_track(sides, &mut self.answer, false)?;
+        let residual = self.residual();
+        if residual.is_nan() || residual > BLOWN {
+            return Err(IterationError::Unstable { t: sides.t, h: sides.h, rho: self.report.contraction, residual });
+        }
+        self.account(residual);
+        let explicit = &mut self.explicit;
+        for ((e, g), p) in explicit.error.iter_mut().zip(&self.answer).zip(&explicit.prediction) {
+            *e = g - p;
+        }
+        explicit.velocity.copy_from_slice(&self.exchange.now[half..]);
+        explicit.h = sides.h;
+        self.forces.accept(&self.lambda, sides.h);
+        self.exchange.accept();
+        let (outcome, method) = (Outcome::Explicit, Method::Explicit);
+        let info = StepInfo { outcome, method, iterations: 1, train_track_trials: 2, residual, ..StepInfo::default() };
+        Ok(info)
+    }
+
+    /// The deck's motion at the end of the step, with the mean acceleration of the step before.
+    fn extrapolate(&mut self, h: f64) {
+        let half = self.exchange.now.len() / 2;
+        let (d, v) = self.exchange.now.split_at(half);
+        let (to_d, to_v) = self.exchange.motion.split_at_mut(half);
+        for (i, (d, v)) in d.iter().zip(v).enumerate() {
+            let a = (v - self.explicit.velocity[i]) / self.explicit.h;
+            to_d[i] = d + h * (v + 0.5 * h * a);
+            to_v[i] = v + h * a;
+        }
+    }
+
+    /// Adds the step to the error estimate.
+    fn account(&mut self, residual: f64) {
+        let half = self.exchange.now.len() / 2;
+        let work = &mut self.explicit.work;
+        let moved = self.exchange.motion[..half].iter().zip(&self.exchange.now).map(|(d, now)| d - now);
+        for ((moved, r), g) in moved.zip(&self.residual).zip(&self.answer) {
+            work[0] += moved * r;
+            work[1] += (moved * g).abs();
+        }
+        let estimate = self.report.explicit.get_or_insert_default();
+        estimate.residual = estimate.residual.max(residual);
+        estimate.work = if work[1] > 0.0 { work[0].abs() / work[1] } else { 0.0 };
+    }
+
+    /// ρ by the bridge's directional derivatives and the train–track subsystem's trials, as in
+    /// [`Coupling::contraction`]; refuses a ρ above [`STABLE`].
+    fn refuse_strong(&mut self, sides: &mut Sides) -> Result<(), IterationError> {
+        if !sides.bridge.can_derive() {
+            return Ok(());
+        }
+        let n = self.lambda.len();
+        let scale = crate::identify::PROBE * self.settings.force_scale;
+        let share = self.exchange.share_of_force(sides.bridge);
+        let (mut v, mut base, mut change) = (vec![0.0; n], vec![0.0; n], vec![0.0; self.exchange.now.len()]);
+        sides.train_track.save()?;
+        self.exchange.motion.clone_from(&self.exchange.now);
+        self.exchange.train_track(sides, &mut base, true)?;
+        // Derivatives are those for inputs as they will be given.
+        self.exchange.announce(sides, self.forces.now(), self.forces.now())?;
+        v.iter_mut().enumerate().for_each(|(i, v)| *v = crate::identify::shape(i));
+        let mut rho = 0.0;
+        for _ in 0..crate::identify::POWER {
+            let size = norm(&v);
+            if !(size > 0.0 && size.is_finite()) {
+                break;
+            }
+            let factor = scale * (n as f64).sqrt() / size;
+            v.iter_mut().for_each(|v| *v *= factor * share);
+            // An FMU that refuses before its first step leaves ρ unknown.
+            if sides.bridge.derivative(&v, &mut change).is_err() {
+                sides.train_track.restore()?;
+                return Ok(());
+            }
+            let moved = self.exchange.motion.iter_mut().zip(&self.exchange.now).zip(&change);
+            moved.for_each(|((m, now), c)| *m = now + c);
+            sides.train_track.restore()?;
+            self.exchange.train_track(sides, &mut self.answer, true)?;
+            v.iter_mut().zip(&self.answer).zip(&base).for_each(|((v, g), base)| *v = (g - base) / factor);
+            rho = dot(&v, &v).sqrt() / size;
+        }
+        sides.train_track.restore()?;
+        self.report.contraction = Some(rho);
+        if rho > STABLE {
+            return Err(IterationError::Unstable { t: sides.t, h: sides.h, rho: Some(rho), residual: 0.0 });
+        }
+        Ok(())
+    }
+}

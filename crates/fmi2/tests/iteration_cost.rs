@@ -1,0 +1,123 @@
+//! What the iteration costs beside its subsystems at 1,000 couplings each way: no allocation in a step, by any method.
+
+use std::alloc::{GlobalAlloc, Layout, System};
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::time::Instant;
+use ttb_coupling::iteration::{OnFailure, Settings};
+use ttb_coupling::predictor::Predictor;
+use ttb_coupling::{Coupling, Failure, Method, Subsystem};
+
+struct Counting;
+static ALLOCATIONS: AtomicU64 = AtomicU64::new(0);
+
+// SAFETY: does what the system's allocator does, and counts.
+unsafe impl GlobalAlloc for Counting {
+    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
+        ALLOCATIONS.fetch_add(1, Ordering::Relaxed);
+        // SAFETY: passed on.
+        unsafe { System.alloc(layout) }
+    }
+    unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
+        // SAFETY: passed on.
+        unsafe { System.dealloc(pointer, layout) }
+    }
+}
+#[global_allocator]
+static GLOBAL: Counting = Counting;
+
+/// Answers `constant + gain · (input at the end of the step)`, each output to the input of its number.
+struct Line {
+    gain: f64,
+    load: f64,
+    input: Vec<f64>,
+    rate: Vec<f64>,
+    time: f64,
+    rolls_back: bool,
+}
+
+impl Line {
+    fn new(inputs: usize, gain: f64, load: f64) -> Self {
+        Self { gain, load, input: vec![0.0; inputs], rate: vec![0.0; inputs], time: 0.0, rolls_back: true }
+    }
+}
+
+impl Subsystem for Line {
+    fn set_inputs(&mut self, values: &[f64], rates: Option<&[f64]>) -> Result<(), Failure> {
+        self.input.copy_from_slice(values);
+        match rates {
+            Some(rates) => self.rate.copy_from_slice(rates),
+            None => self.rate.fill(0.0),
+        }
+        Ok(())
+    }
+    fn get_outputs(&mut self, outputs: &mut [f64]) -> Result<(), Failure> {
+        let n = self.input.len();
+        for (i, out) in outputs.iter_mut().enumerate() {
+            let end = self.input[i % n] + 1e-3 * self.rate[i % n];
+            let load = self.load * (1.0 + (30.0 * self.time + i as f64).sin());
+            *out = if i < n { load + self.gain * (1.0 + 0.3 * (i as f64).sin()) * end } else { 0.0 };
+        }
+        Ok(())
+    }
+    fn exit_initialization(&mut self) -> Result<(), Failure> {
+        Ok(())
+    }
+    fn step(&mut self, t: f64, h: f64, _may_restore: bool) -> Result<(), Failure> {
+        self.time = t + h;
+        Ok(())
+    }
+    fn save(&mut self) -> Result<(), Failure> {
+        Ok(())
+    }
+    fn restore(&mut self) -> Result<(), Failure> {
+        Ok(())
+    }
+    fn can_interpolate(&self) -> bool {
+        true
+    }
+    fn can_roll_back(&self) -> bool {
+        self.rolls_back
+    }
+}
+
+#[test]
+fn no_method_allocates_in_a_step() {
+    for (method, n) in [
+        (Method::FixedPoint, 1000),
+        (Method::Aitken, 1000),
+        (Method::IqnIls, 1000),
+        (Method::Newton, 200),
+        (Method::Auto, 1000),
+        (Method::Explicit, 1000),
+    ] {
+        let (mut train_track, mut bridge) = (Line::new(2 * n, -1.0, 100.0), Line::new(n, 0.03, 0.0));
+        bridge.rolls_back = method != Method::Explicit;
+        let settings = Settings {
+            method,
+            reuse: 2,
+            predictor: Predictor::Linear,
+            tolerance: 1e-6,
+            force_scale: 100.0,
+            max_iterations: 30,
+            hold_forces: false,
+            on_failure: OnFailure::Stop,
+        };
+        let mut coupling = Coupling::new(n, 2 * n, settings);
+        coupling.initialise(&mut train_track, &mut bridge, 0.0).expect("equilibrium");
+        let mut trials = 0;
+        let mut run = |from: u32, steps: u32| {
+            for i in from..from + steps {
+                let info = coupling.step(&mut train_track, &mut bridge, f64::from(i) * 1e-3, 1e-3);
+                trials += info.expect("a step").iterations;
+            }
+        };
+        // The first steps measure ρ, identify, and make room for what is remembered.
+        run(0, 10);
+        let before = ALLOCATIONS.load(Ordering::Relaxed);
+        let begin = Instant::now();
+        run(10, 200);
+        let micro = 1e6 * begin.elapsed().as_secs_f64() / 200.0;
+        assert_eq!(ALLOCATIONS.load(Ordering::Relaxed) - before, 0, "{}", method.name());
+        println!("{}, {n} forces: {:.1} trials, {micro:.1} µs a step", method.name(), f64::from(trials as u32) / 210.0);
+    }
+}

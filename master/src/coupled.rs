@@ -1,0 +1,69 @@
+//! What the summary says of the coupling: its strength, the method that dealt with it, the error where it was not iterated.
+
+use serde::Serialize;
+use ttb_coupling::report::Source;
+use ttb_coupling::{Coupling, Method};
+
+/// How strongly the two are coupled, and by what method that was dealt with.
+#[derive(Clone, Debug, Default, Serialize)]
+pub struct CouplingReport {
+    /// The method in force at the end: what `auto` has picked.
+    pub method: &'static str,
+    /// ρ at the start, the contraction of the plain fixed point; absent if it could not be measured.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub contraction_at_start: Option<f64>,
+    /// Trials spent on ρ and on a model of the interface, in no step's count.
+    pub identification_trials: usize,
+    /// Where Newton's model came from.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub model: Option<&'static str>,
+    /// Methods that took over in the course of the run, and when.
+    pub switches: Vec<Switch>,
+    /// Steps without iteration: largest force that was missing at the end of a step, relative; a bound of the error of
+    /// displacements.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub error_estimate: Option<f64>,
+    /// Steps without iteration: work that was lost or gained at the interface, relative.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub work_imbalance: Option<f64>,
+}
+
+/// A change of method.
+#[derive(Clone, Debug, Serialize)]
+pub struct Switch {
+    /// From when on, s.
+    pub time: f64,
+    /// What is in force.
+    pub method: &'static str,
+}
+
+impl CouplingReport {
+    /// What the coupling knows at the end of a run.
+    pub fn new(coupling: &Coupling) -> Self {
+        let report = coupling.report();
+        let switches = report.switches.iter().map(|(time, method)| Switch { time: *time, method: method.name() });
+        let explicit = report.explicit;
+        Self {
+            method: if explicit.is_some() { Method::Explicit.name() } else { coupling.method().name() },
+            contraction_at_start: report.contraction,
+            identification_trials: report.identification_trials,
+            model: report.model.map(|source| match source {
+                Source::Derivatives => "directional derivatives",
+                Source::Trials => "trials",
+            }),
+            switches: switches.collect(),
+            error_estimate: explicit.map(|e| e.residual),
+            work_imbalance: explicit.map(|e| e.work),
+        }
+    }
+
+    /// Two lines for people.
+    pub fn print(&self) {
+        let rho = self.contraction_at_start.map_or_else(|| "unknown".into(), |rho| format!("{rho:.3}"));
+        let model = self.model.map_or_else(String::new, |model| format!(", model by {model}"));
+        say!("  coupling        {}{model}; ρ at the start {rho}", self.method);
+        if let (Some(error), Some(work)) = (self.error_estimate, self.work_imbalance) {
+            say!("  NOT ITERATED    the bridge cannot roll back; error about {error:.1e}, work imbalance {work:.1e}");
+        }
+    }
+}

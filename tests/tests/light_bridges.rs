@@ -1,0 +1,217 @@
+//! Light bridges: R1 on 1 t/m and on 0.5 t/m, its bending stiffness scaled alike, and bridges that cannot roll back.
+
+use std::ops::ControlFlow;
+
+use ttb_coupling::iteration::IterationError;
+use ttb_coupling::report::{ErrorEstimate, Source};
+use ttb_coupling::run::{TimeAxis, run};
+use ttb_coupling::{Coupling, Failure, Method, Report, Settings, Subsystem};
+use ttb_scenario::Checked;
+use ttb_tests::{Pair, library_run, pair, r1_with};
+
+/// A bridge as some FMUs are: without roll-back, without directional derivatives, without interpolation of inputs.
+struct Limited<B> {
+    bridge: B,
+    rolls_back: bool,
+    derives: bool,
+    interpolates: bool,
+}
+
+impl<B: Subsystem> Subsystem for Limited<B> {
+    fn set_inputs(&mut self, values: &[f64], rates: Option<&[f64]>) -> Result<(), Failure> {
+        assert!(rates.is_none() || self.interpolates);
+        self.bridge.set_inputs(values, rates)
+    }
+    fn get_outputs(&mut self, outputs: &mut [f64]) -> Result<(), Failure> {
+        self.bridge.get_outputs(outputs)
+    }
+    fn exit_initialization(&mut self) -> Result<(), Failure> {
+        self.bridge.exit_initialization()
+    }
+    fn step(&mut self, t: f64, h: f64, may_restore: bool) -> Result<(), Failure> {
+        assert!(!may_restore || self.rolls_back);
+        self.bridge.step(t, h, may_restore)
+    }
+    fn save(&mut self) -> Result<(), Failure> {
+        assert!(self.rolls_back, "nobody may try");
+        self.bridge.save()
+    }
+    fn restore(&mut self) -> Result<(), Failure> {
+        assert!(self.rolls_back, "nobody may try");
+        self.bridge.restore()
+    }
+    fn can_interpolate(&self) -> bool {
+        self.interpolates
+    }
+    fn can_roll_back(&self) -> bool {
+        self.rolls_back
+    }
+    fn can_derive(&self) -> bool {
+        self.derives
+    }
+    fn derivative(&mut self, seed: &[f64], change: &mut [f64]) -> Result<(), Failure> {
+        assert!(self.derives);
+        self.bridge.derivative(seed, change)
+    }
+}
+
+/// What a run took, and mid-span displacement over time.
+struct Ran {
+    mean: f64,
+    most: usize,
+    rescues: usize,
+    report: Report,
+    mid: Vec<f64>,
+}
+
+/// Which of roll-back, derivatives, interpolation the bridge has.
+type Abilities = [bool; 3];
+const ALL: Abilities = [true; 3];
+
+fn settings(checked: &Checked, method: Method) -> Settings {
+    Settings { method, ..checked.scenario.coupling.settings(checked.axle_load) }
+}
+
+fn try_run(checked: &Checked, settings: Settings, abilities: Abilities) -> Result<Ran, IterationError> {
+    let [rolls_back, derives, interpolates] = abilities;
+    let Pair { mut train_track, bridge, coupled, .. } = pair(checked);
+    let mut bridge = Limited { bridge, rolls_back, derives, interpolates };
+    let mut coupling = Coupling::new(coupled.0, coupled.1, settings);
+    coupling.initialise(&mut train_track, &mut bridge, 0.0)?;
+    let axis = TimeAxis::new(checked.train_track.step, checked.train_track.end);
+    let (mut trials, mut most, mut rescues, mut mid) = (0, 0, 0, vec![0.0]);
+    let mut motion = vec![0.0; coupled.1];
+    let _ = run(&mut coupling, &mut train_track, &mut bridge, axis, |_, bridge, _, _, info| {
+        trials += info.iterations;
+        most = most.max(info.iterations);
+        rescues += info.rescues;
+        bridge.get_outputs(&mut motion)?;
+        mid.push(motion[coupled.0 / 2]);
+        Ok::<_, IterationError>(ControlFlow::Continue(()))
+    })?;
+    let report = coupling.report().clone();
+    Ok(Ran { mean: trials as f64 / axis.steps() as f64, most, rescues, report, mid })
+}
+
+fn runs(checked: &Checked, method: Method, abilities: Abilities) -> Ran {
+    try_run(checked, settings(checked, method), abilities).unwrap_or_else(|e| panic!("{e}"))
+}
+
+fn light_cases() -> impl Iterator<Item = (f64, f64)> {
+    [1000.0, 500.0].into_iter().flat_map(|mass| [1e-3, 2e-3, 5e-3].map(|h| (mass, h)))
+}
+
+/// Largest difference relative to the largest value.
+fn difference(a: &[f64], b: &[f64]) -> f64 {
+    assert_eq!(a.len(), b.len());
+    let scale = a.iter().fold(0.0_f64, |s, x| s.max(x.abs()));
+    a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max) / scale
+}
+
+#[test]
+fn newton_lets_the_bridge_step_twice_whatever_its_mass_and_the_step() {
+    for (mass, h) in light_cases() {
+        let ran = runs(&r1_with(mass, h), Method::Newton, ALL);
+        assert!(ran.mean <= 2.01 && ran.most <= 3, "{mass} kg/m, {h} s: {:.2}, at most {}", ran.mean, ran.most);
+        assert_eq!((ran.report.model, ran.rescues), (Some(Source::Derivatives), 0));
+    }
+}
+
+#[test]
+fn newton_is_as_quick_without_derivatives_and_with_held_means() {
+    for (mass, h) in [(1000.0, 5e-3), (500.0, 2e-3)] {
+        for abilities in [[true, false, true], [true, true, false], [true, false, false]] {
+            let ran = runs(&r1_with(mass, h), Method::Newton, abilities);
+            assert!(ran.mean <= 2.01, "{mass} kg/m, {h} s, {abilities:?}: {:.2}", ran.mean);
+            let source = if abilities[1] { Source::Derivatives } else { Source::Trials };
+            assert_eq!(ran.report.model, Some(source), "{abilities:?}");
+        }
+    }
+}
+
+#[test]
+fn auto_converges_on_every_light_bridge_in_less_than_three_trials_a_step() {
+    for (mass, h) in light_cases() {
+        for abilities in [ALL, [true, false, false]] {
+            let ran = runs(&r1_with(mass, h), Method::Auto, abilities);
+            assert!(ran.mean <= 3.0, "{mass} kg/m, {h} s, {abilities:?}: {:.2}", ran.mean);
+            assert_eq!(ran.rescues, 0);
+        }
+    }
+}
+
+#[test]
+fn quasi_newton_needs_fewer_trials_than_aitken_and_aitken_fewer_than_the_fixed_point() {
+    // 0.5 t/m, 5 ms: 5.1, 6.1, 12.6.
+    let checked = r1_with(500.0, 5e-3);
+    let [quasi, aitken, fixed] =
+        [Method::IqnIls, Method::Aitken, Method::FixedPoint].map(|method| runs(&checked, method, ALL).mean);
+    assert!(quasi < 5.6 && quasi < 0.9 * aitken && aitken < 0.6 * fixed, "{quasi:.2} {aitken:.2} {fixed:.2}");
+}
+
+#[test]
+fn auto_is_never_worse_than_aitken_on_r1() {
+    for h in [1e-3, 2e-3, 5e-3] {
+        let checked = r1_with(29_720.0, h);
+        let (auto, aitken) = (runs(&checked, Method::Auto, ALL).mean, runs(&checked, Method::Aitken, ALL).mean);
+        assert!(auto <= aitken, "{h} s: {auto:.2} {aitken:.2}");
+    }
+}
+
+#[test]
+fn the_answer_on_a_light_bridge_is_the_monolithic_one() {
+    for (mass, h) in [(1000.0, 1e-3), (500.0, 2e-3), (500.0, 5e-3)] {
+        let mut checked = r1_with(mass, h);
+        checked.scenario.coupling.tolerance = 1e-10;
+        let monolithic = ttb_reference::run(&checked.train_track, &checked.bridge).expect("monolithic run");
+        for method in [ttb_scenario::types::Method::Newton, ttb_scenario::types::Method::Auto] {
+            checked.scenario.coupling.method = method;
+            let table = library_run(&checked);
+            let point = table.column(&format!("point[{}].displacement", checked.bridge.points[0].name));
+            let wheel = table.column("wheel[3].contact_force");
+            let off = [difference(point, &monolithic.points[0]), difference(wheel, &monolithic.wheels[2])];
+            assert!(off.iter().all(|d| *d < 1e-7), "{mass} kg/m, {h} s, {method:?}: {off:?}");
+        }
+    }
+}
+
+#[test]
+fn without_roll_back_the_estimate_bounds_the_error() {
+    for (mass, h) in [(29_720.0, 1e-3), (29_720.0, 5e-3), (5000.0, 1e-3), (5000.0, 5e-3), (1500.0, 1e-3)] {
+        let checked = r1_with(mass, h);
+        let truth = runs(&checked, Method::Auto, ALL);
+        for abilities in [[false, true, true], [false, false, true], [false, false, false]] {
+            let ran = runs(&checked, Method::Auto, abilities);
+            let Some(ErrorEstimate { residual, work }) = ran.report.explicit else { panic!("no estimate") };
+            let off = difference(&truth.mid, &ran.mid);
+            println!("{mass} kg/m, {h} s, {abilities:?}: off {off:.1e}, estimate {residual:.1e}, work {work:.1e}");
+            assert!(off <= residual, "{mass} kg/m, {h} s, {abilities:?}: {off:.1e}, estimate {residual:.1e}");
+        }
+    }
+}
+
+#[test]
+fn without_roll_back_the_limit_of_the_contraction_leaves_a_margin() {
+    // ρ = 0.105, 0.164, 0.108 at the start; with derivatives these are refused.
+    for (mass, h) in [(500.0, 1e-3), (500.0, 2e-3), (1000.0, 5e-3)] {
+        let checked = r1_with(mass, h);
+        let truth = runs(&checked, Method::Auto, ALL);
+        assert!(truth.report.contraction.is_some_and(|rho| rho > ttb_coupling::explicit::STABLE));
+        let ran = runs(&checked, Method::Auto, [false, false, true]);
+        let (off, estimate) = (difference(&truth.mid, &ran.mid), ran.report.explicit.unwrap_or_default());
+        println!("{mass} kg/m, {h} s: off {off:.1e}, {estimate:?}");
+        assert!(off <= estimate.residual, "{mass} kg/m, {h} s: {off:.1e}, {estimate:?}");
+    }
+}
+
+#[test]
+fn without_roll_back_a_bridge_that_would_blow_up_is_refused() {
+    let checked = r1_with(300.0, 5e-3);
+    let auto = settings(&checked, Method::Auto);
+    let Err(error) = try_run(&checked, auto, [false, true, true]) else { panic!("it ran") };
+    assert!(matches!(error, IterationError::Unstable { t: 0.0, residual: 0.0, .. }), "{error}");
+    let very_light = r1_with(30.0, 5e-3);
+    let Err(error) = try_run(&very_light, auto, [false, false, true]) else { panic!("it ran") };
+    assert!(matches!(error, IterationError::Unstable { rho: None, .. }), "{error}");
+    println!("{error}");
+}
