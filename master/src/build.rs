@@ -70,6 +70,18 @@ pub fn train_track(checked: &Checked, folder: &Path) -> Result<PathBuf, Error> {
 /// Writes Bridge.fmu.
 pub fn bridge(checked: &Checked, folder: &Path) -> Result<PathBuf, Error> {
     let model = Bridge::new(checked.bridge.clone()).map_err(|e| Error::Input(e.to_string()))?;
+    if let Some(a) = model.accuracy() {
+        eprintln!(
+            "ttb: the bridge is reduced to {} modes up to {:.0} Hz and {} pseudo-modes; under a probe load displacements \
+             differ by {:.1e} and accelerations by {:.1e} of their greatest from all {} degrees of freedom",
+            a.modes,
+            a.highest_frequency,
+            a.pseudo_modes,
+            a.displacement,
+            a.acceleration,
+            model.ndof()
+        );
+    }
     let files = model.resources(&checked.bridge).map_err(|e| Error::Pack(e.to_string()))?;
     write(&BRIDGE, &model, &files, folder)
 }

@@ -24,6 +24,7 @@ First steps:
 
 Exit codes:
     0  ok
+    1  ttb check has findings
     2  bad input: every problem is listed
     3  a step did not converge
     4  an FMU failed
@@ -33,23 +34,41 @@ Exit codes:
 /// The commands.
 #[derive(Debug, Subcommand)]
 pub enum Command {
-    /// Run a scenario: build its FMUs, couple them, write results
+    /// Run a scenario: build its FMUs, couple them, write results. Or run a system structure (.ssp)
     #[command(after_help = RUN_HELP)]
     Run(Run),
     /// Only build TrainTrack.fmu and Bridge.fmu
     Build(Build),
+    /// Write a scenario as a system structure (SSP 1.0): both FMUs, connections and coupling settings in one file
+    #[command(after_help = EXPORT_HELP)]
+    ExportSsp(ExportSsp),
     /// Check a scenario and print all its problems
     CheckScenario {
         /// The scenario file
         scenario: PathBuf,
     },
+    /// Show what engineers check first of a bridge: mass, reactions, what is loose, lowest frequencies
+    #[command(after_help = "Exit code 2 if something is loose or forces do not balance.")]
+    InspectBridge {
+        /// A scenario, or a bridge model file
+        file: PathBuf,
+    },
+    /// Test an FMU: does it do what its description and the standard promise?
+    #[command(after_help = CHECK_HELP)]
+    Check(Check),
+    /// Show what an FMU offers and propose a map of its variables
+    Inspect(Inspect),
     /// Make a bridge model of shells and beams, and a scenario that runs a train over it
     Generate(Generate),
     /// Print the JSON Schema of scenario files
     #[command(
         after_help = "Put it beside your scenarios and name it in them, \"$schema\": \"scenario.schema.json\": editors then complete and check."
     )]
-    Schema,
+    Schema {
+        /// That of bridge model files instead
+        #[arg(long)]
+        bridge: bool,
+    },
     /// What `ttb run --isolate` starts to run an FMU in
     #[command(hide = true)]
     Host,
@@ -66,10 +85,25 @@ The output folder gets
 A foreign FMU that crashes takes the program and its results along, unless it is isolated:
   ttb run scenario.json --bridge THEIRS.fmu --isolate --timeout 10";
 
+const EXPORT_HELP: &str = "\
+FMPy, ecos, libcosim and other importers of SSP 1.0 simulate the file, in one pass a step; `ttb run FILE.ssp` iterates
+and gives the results of the scenario. The settings of the iteration stand in the annotation org.ttb.coupling
+(docs/guide/ssp.md).";
+
+/// Arguments of `ttb export-ssp`.
+#[derive(Debug, Args)]
+pub struct ExportSsp {
+    /// The scenario file [default: the bundled ICE 3 over a cable-stayed bridge]
+    pub scenario: Option<PathBuf>,
+    /// The file to write [default: the scenario's name with .ssp, in this folder]
+    #[arg(short, long, value_name = "FILE.ssp")]
+    pub output: Option<PathBuf>,
+}
+
 /// Arguments of `ttb run`.
 #[derive(Debug, Args)]
 pub struct Run {
-    /// The scenario file [default: the bundled ICE 3 over a cable-stayed bridge]
+    /// The scenario file, or a system structure of two FMUs, FILE.ssp [default: the bundled ICE 3 over a cable-stayed bridge]
     pub scenario: Option<PathBuf>,
     /// Folder for the results
     #[arg(short, long, default_value = "ttb-out")]
@@ -82,8 +116,8 @@ pub struct Run {
     pub bridge: Option<PathBuf>,
     /// Run FMUs in processes of their own: should one crash or hang, the results so far are kept
     ///
-    /// Without value: the FMUs given by --bridge and --train-track. What such an FMU prints goes to standard error, each
-    /// line after its name. Linux only.
+    /// Without value: the FMUs given by --bridge and --train-track, or both of an .ssp file. What such an FMU prints goes
+    /// to standard error, each line after its name. Linux only.
     #[arg(long, value_name = "SIDE", num_args = 0..=1, require_equals = true, default_missing_value = "given")]
     pub isolate: Option<Isolate>,
     /// Longest time a call of an isolated FMU may take [default: 60]
@@ -103,9 +137,43 @@ pub enum Isolate {
     Bridge,
     /// Both FMUs
     Both,
-    /// Those given by --bridge and --train-track
+    /// Those given by --bridge and --train-track, or by an .ssp file
     #[value(hide = true)]
     Given,
+}
+
+const CHECK_HELP: &str = "\
+One line a finding: error or warning, the rule's name, what is wrong, where, what was seen.
+Every test runs in a process of its own, so that a crash or a hang is a finding.
+Exit code 0 without findings, 1 with any.";
+
+/// Arguments of `ttb check`.
+#[derive(Debug, Args)]
+pub struct Check {
+    /// The FMU
+    pub fmu: PathBuf,
+    /// Print the findings as JSON
+    #[arg(long)]
+    pub json: bool,
+    /// Seconds a single call may take
+    #[arg(long, default_value_t = 30.0, value_name = "SECONDS")]
+    pub timeout: f64,
+    /// Make one of the checks in this process
+    #[arg(long, hide = true)]
+    pub worker: Option<String>,
+    /// Where it reports
+    #[arg(long, hide = true)]
+    pub report: Option<PathBuf>,
+}
+
+/// Arguments of `ttb inspect`.
+#[derive(Debug, Args)]
+pub struct Inspect {
+    /// The FMU
+    pub fmu: PathBuf,
+    /// Print only the proposed map
+    #[arg(long)]
+    pub map: bool,
 }
 
 /// Arguments of `ttb build`.

@@ -1,13 +1,12 @@
-//! From two FMU files to two coupled subsystems: variables of equal name are connected.
+//! From two FMU files to two coupled subsystems: variables of equal name are connected, or those that a list names.
 
 use std::collections::HashSet;
 use std::path::Path;
 
 use ttb_coupling::{Coupling, Subsystem};
-use ttb_fmi2::import::{FmuInstance, FmuSubsystem, ModelDescription, VariableType};
-use ttb_fmi2::isolate::Isolation;
+use ttb_fmi2::import::{Fmu, FmuInstance, FmuSubsystem, Linear, ModelDescription, VariableType};
 use ttb_scenario::Checked;
-use ttb_scenario::types::Send;
+use ttb_scenario::types::{CouplingSettings, Send};
 
 use crate::error::Error;
 use crate::isolate::{self, Isolated};
@@ -24,11 +23,32 @@ pub struct Connected {
     pub warnings: Vec<String>,
 }
 
+/// A connected pair of variables, and the lines between each of them and the iteration.
+pub struct Wire {
+    /// An output of one FMU.
+    pub output: String,
+    /// An input of the other.
+    pub input: String,
+    /// From the output to the iteration.
+    pub from_output: Linear,
+    /// From the iteration to the input.
+    pub to_input: Linear,
+}
+
+/// All connections.
+pub struct Wiring {
+    /// From the train–track side to the bridge.
+    pub forces: Vec<Wire>,
+    /// From the bridge to the train–track side.
+    pub motions: Vec<Wire>,
+}
+
 /// Loads both FMUs, enters initialization mode, connects.
 pub fn connect(train_track: &Path, bridge: &Path, checked: &Checked, isolated: &Isolated) -> Result<Connected, Error> {
     let end = checked.train_track.end;
-    let train_track = instantiate(train_track, "TrainTrack", end, isolated.train_track.as_ref())?;
-    let bridge = instantiate(bridge, "Bridge", end, isolated.bridge.as_ref())?;
+    let train_track = isolate::open(train_track, isolated.train_track.as_ref())?;
+    let train_track = instantiate(&train_track, "TrainTrack", end)?;
+    let bridge = instantiate(&isolate::open(bridge, isolated.bridge.as_ref())?, "Bridge", end)?;
     let forces = shared(train_track.description(), bridge.description());
     let motions = shared(bridge.description(), train_track.description());
     let mut warnings = checked.warnings.clone();
@@ -49,7 +69,28 @@ pub fn connect(train_track: &Path, bridge: &Path, checked: &Checked, isolated: &
     if let Some(open) = unconnected(bridge.description(), &forces) {
         warnings.push(format!("{}: input {open} is connected to nothing and keeps its start value", bridge.name()));
     }
-    let settings = checked.scenario.coupling.settings(checked.axle_load);
+    let equal = |names: Vec<String>| names.into_iter().map(Wire::equal).collect();
+    let wiring = Wiring { forces: equal(forces), motions: equal(motions) };
+    couple(train_track, bridge, &wiring, &checked.scenario.coupling, checked.axle_load, warnings)
+}
+
+impl Wire {
+    /// Of two variables of equal name and unit.
+    fn equal(name: String) -> Self {
+        Self { input: name.clone(), output: name, from_output: Linear::IDENTITY, to_input: Linear::IDENTITY }
+    }
+}
+
+/// Couples two FMUs in initialization mode by explicit wiring; `force_scale` is that of the tolerance, N.
+pub fn couple(
+    train_track: FmuInstance,
+    bridge: FmuInstance,
+    wiring: &Wiring,
+    coupling: &CouplingSettings,
+    force_scale: f64,
+    mut warnings: Vec<String>,
+) -> Result<Connected, Error> {
+    let settings = coupling.settings(force_scale);
     if settings.max_iterations > 1 && !train_track.can_restore() {
         return Err(Error::Input(format!(
             "{} cannot save and restore its state (canGetAndSetFMUstate), so its steps cannot be repeated; one pass a step is \
@@ -64,23 +105,33 @@ pub fn connect(train_track: &Path, bridge: &Path, checked: &Checked, isolated: &
             bridge.name()
         ));
     }
-    if checked.scenario.coupling.send == Send::Rate && !bridge.can_interpolate() {
+    if coupling.send == Send::Rate && !bridge.can_interpolate() {
         let name = bridge.name();
         return Err(Error::Input(format!(
             "coupling.send is rate, but {name} cannot interpolate inputs: use auto or mean"
         )));
     }
-    let train_track = FmuSubsystem::new(train_track, &motions, &forces)?;
-    let bridge = FmuSubsystem::new(bridge, &forces, &motions)?;
+    let train_track = subsystem(train_track, &wiring.motions, &wiring.forces)?;
+    let bridge = subsystem(bridge, &wiring.forces, &wiring.motions)?;
     if !train_track.can_interpolate() {
         warnings.push("the train–track FMU cannot interpolate inputs: the deck's motion is sent as held means".into());
     }
-    let coupling = Coupling::new(forces.len(), motions.len(), settings);
+    let coupling = Coupling::new(wiring.forces.len(), wiring.motions.len(), settings);
     Ok(Connected { train_track, bridge, coupling, warnings })
 }
 
-fn instantiate(path: &Path, name: &str, end: f64, isolation: Option<&Isolation>) -> Result<FmuInstance, Error> {
-    let mut instance = isolate::open(path, isolation)?.instantiate(name, false)?;
+/// One side, by the wires to it and from it.
+fn subsystem(instance: FmuInstance, to: &[Wire], from: &[Wire]) -> Result<FmuSubsystem, Error> {
+    let inputs: Vec<&str> = to.iter().map(|wire| wire.input.as_str()).collect();
+    let outputs: Vec<&str> = from.iter().map(|wire| wire.output.as_str()).collect();
+    let into: Vec<Linear> = to.iter().map(|wire| wire.to_input).collect();
+    let out: Vec<Linear> = from.iter().map(|wire| wire.from_output).collect();
+    Ok(FmuSubsystem::new(instance, &inputs, &outputs)?.transformed(&into, &out))
+}
+
+/// An instance in initialization mode.
+pub fn instantiate(fmu: &Fmu, name: &str, end: f64) -> Result<FmuInstance, Error> {
+    let mut instance = fmu.instantiate(name, false)?;
     instance.setup_experiment(0.0, Some(end))?;
     instance.enter_initialization()?;
     Ok(instance)

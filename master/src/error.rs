@@ -32,6 +32,14 @@ pub enum Error {
     /// Packing an FMU.
     #[error("{0}")]
     Pack(String),
+    /// `ttb check` found something; the findings are on stdout.
+    #[error("{}: {count} findings", fmu.display())]
+    Findings {
+        /// The FMU.
+        fmu: PathBuf,
+        /// How many.
+        count: usize,
+    },
     /// Ctrl-C.
     #[error("interrupted; the results so far are kept")]
     Interrupted,
@@ -41,6 +49,7 @@ impl Error {
     /// Exit code, see `ttb --help`.
     pub fn code(&self) -> u8 {
         match self {
+            Self::Findings { .. } => 1,
             Self::Scenario(_) | Self::Input(_) => 2,
             Self::NotConverged(_) => 3,
             Self::Fmu(_) => 4,
@@ -56,6 +65,7 @@ impl Error {
             Self::NotConverged(_) => "not-converged",
             Self::Fmu(_) => "fmu-failed",
             Self::Io { .. } | Self::Pack(_) => "io-failed",
+            Self::Findings { .. } => "findings",
             Self::Interrupted => "interrupted",
         }
     }

@@ -9,6 +9,7 @@ use ttb_fmi2::isolate::{AVAILABLE, Isolation};
 
 use crate::cli::{Isolate, Run};
 use crate::error::Error;
+use crate::system::is_system;
 
 /// How long a call may take if nothing else is said, s.
 pub const TIMEOUT: f64 = 60.0;
@@ -25,7 +26,7 @@ pub struct Isolated {
 impl Isolated {
     /// As the arguments say.
     pub fn new(arguments: &Run) -> Result<Self, Error> {
-        let given = [&arguments.train_track, &arguments.bridge].map(Option::is_some);
+        let given = given(arguments);
         let [train_track, bridge] = match arguments.isolate {
             None => return Ok(Self::default()),
             Some(Isolate::Given) if given == [false; 2] => {
@@ -53,9 +54,8 @@ impl Isolated {
 
     /// Adds to a failure of a given FMU that runs in this process what would have kept it apart.
     pub fn advise(&self, error: Error, arguments: &Run) -> Error {
-        let exposed = |given: bool, isolation: &Option<Isolation>| given && isolation.is_none();
-        let exposed = exposed(arguments.train_track.is_some(), &self.train_track)
-            || exposed(arguments.bridge.is_some(), &self.bridge);
+        let [train_track, bridge] = given(arguments);
+        let exposed = train_track && self.train_track.is_none() || bridge && self.bridge.is_none();
         match error {
             Error::Fmu(text) if AVAILABLE && exposed => Error::Fmu(format!(
                 "{text}\nA given FMU runs in this process and can end it: --isolate runs it in one of its own."
@@ -63,6 +63,12 @@ impl Isolated {
             other => other,
         }
     }
+}
+
+/// Whether train–track and bridge FMU come from the user: by an option, or in a system structure.
+fn given(arguments: &Run) -> [bool; 2] {
+    let system = arguments.scenario.as_deref().is_some_and(is_system);
+    [&arguments.train_track, &arguments.bridge].map(|fmu| system || fmu.is_some())
 }
 
 /// Opens an FMU for this process or one of its own.

@@ -9,17 +9,24 @@ macro_rules! say {
 }
 
 mod build;
+mod check;
 mod cli;
 mod connect;
 mod coupled;
 mod error;
 mod generate;
+mod inspect;
+mod inspect_bridge;
 mod isolate;
+mod job;
+mod map;
 mod peaks;
 mod plot;
 mod record;
 mod run;
+mod series;
 mod summary;
+mod system;
 
 use std::process::ExitCode;
 
@@ -56,10 +63,17 @@ fn execute(command: Command) -> Result<(), Error> {
             );
             Ok(())
         }
+        Command::Check(arguments) => check::check(&arguments),
+        Command::Inspect(arguments) => inspect::inspect(&arguments),
+        Command::ExportSsp(arguments) => {
+            say!("{}", system::export(&arguments)?.display());
+            Ok(())
+        }
         Command::Generate(arguments) => generate::generate(&arguments),
         Command::Host => ttb_fmi2::isolate::host().map_err(Error::Input),
-        Command::Schema => {
-            say!("{:#}", ttb_scenario::schema());
+        Command::InspectBridge { file } => inspect_bridge::inspect(&file),
+        Command::Schema { bridge } => {
+            say!("{:#}", if bridge { ttb_scenario::model_schema() } else { ttb_scenario::schema() });
             Ok(())
         }
     }

@@ -1,5 +1,6 @@
 //! What a run leaves behind step by step: results.csv and iterations.csv, and every value at hand for peaks and plots.
 
+use std::collections::HashSet;
 use std::fs::File;
 use std::io::{BufWriter, Write};
 use std::num::NonZeroUsize;
@@ -65,7 +66,14 @@ impl Recorder {
         last: u64,
     ) -> Result<Self, Error> {
         let mut columns = Vec::new();
+        let name = bridge.instance().name().to_string();
         let references = [train_track, bridge].map(|fmu| outputs(fmu.instance().description(), supports, &mut columns));
+        // Foreign FMUs may both have an output of some name.
+        let (first, second) = columns.split_at_mut(references[0].len());
+        let taken: HashSet<&str> = first.iter().map(|c| c.name.as_str()).collect();
+        for column in second.iter_mut().filter(|c| taken.contains(c.name.as_str())) {
+            column.name = format!("{name}.{}", column.name);
+        }
         let names = columns.iter().map(|c| c.name.as_str());
         let results = Table::create(&folder.join("results.csv"), std::iter::once("time").chain(names))?;
         let iterations = Table::create(&folder.join("iterations.csv"), ITERATIONS.into_iter())?;

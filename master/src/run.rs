@@ -9,7 +9,6 @@ use std::time::Instant;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use ttb_coupling::run::{TimeAxis, run as run_steps};
 use ttb_fmi2::import::FmuSubsystem;
-use ttb_scenario::Checked;
 
 use crate::build;
 use crate::cli::Run;
@@ -17,10 +16,12 @@ use crate::connect::{Connected, connect};
 use crate::coupled::CouplingReport;
 use crate::error::Error;
 use crate::isolate::Isolated;
+use crate::job::Job;
 use crate::peaks::Peaks;
 use crate::plot::Plot;
 use crate::record::Recorder;
 use crate::summary::{Iterations, Seconds, Summary};
+use crate::system::{Opened, is_system};
 
 /// Steps between two looks at the progress bar.
 const PROGRESS: u64 = 50;
@@ -28,10 +29,14 @@ const PROGRESS: u64 = 50;
 /// The command.
 pub fn run(arguments: &Run) -> Result<(), Error> {
     let isolated = Isolated::new(arguments)?;
-    run_isolated(arguments, &isolated).map_err(|error| isolated.advise(error, arguments))
+    let done = match arguments.scenario.as_deref().filter(|path| is_system(path)) {
+        Some(path) => run_system(path, arguments, &isolated),
+        None => run_scenario(arguments, &isolated),
+    };
+    done.map_err(|error| isolated.advise(error, arguments))
 }
 
-fn run_isolated(arguments: &Run, isolated: &Isolated) -> Result<(), Error> {
+fn run_scenario(arguments: &Run, isolated: &Isolated) -> Result<(), Error> {
     let checked = build::scenario(arguments.scenario.as_deref())?;
     for given in [&arguments.train_track, &arguments.bridge].into_iter().flatten() {
         std::fs::File::open(given).map_err(|e| Error::Input(format!("{}: {e}", given.display())))?;
@@ -40,14 +45,40 @@ fn run_isolated(arguments: &Run, isolated: &Isolated) -> Result<(), Error> {
     std::fs::create_dir_all(folder).map_err(Error::io(folder))?;
     let train_track = arguments.train_track.clone().map_or_else(|| build::train_track(&checked, folder), Ok)?;
     let bridge = arguments.bridge.clone().map_or_else(|| build::bridge(&checked, folder), Ok)?;
-    let stop = stop_on_interrupt();
-    let begin = Instant::now();
-    let mut connected = connect(&train_track, &bridge, &checked, isolated)?;
+    let (stop, begin) = (stop_on_interrupt(), Instant::now());
+    let connected = connect(&train_track, &bridge, &checked, isolated)?;
     for warning in &connected.warnings[checked.warnings.len()..] {
         eprintln!("ttb: warning: {warning}");
     }
-    let axis = TimeAxis::new(checked.train_track.step, checked.train_track.end);
-    let output = &checked.scenario.output;
+    run_connected(&Job::from(&checked), connected, arguments, &stop, begin)
+}
+
+fn run_system(path: &Path, arguments: &Run, isolated: &Isolated) -> Result<(), Error> {
+    if arguments.train_track.is_some() || arguments.bridge.is_some() {
+        return Err(Error::Input(
+            "--train-track and --bridge belong to a scenario; an .ssp file names its FMUs itself".into(),
+        ));
+    }
+    let (stop, begin) = (stop_on_interrupt(), Instant::now());
+    let opened = Opened::open(path, isolated)?;
+    let connected = opened.connect()?;
+    for warning in &connected.warnings {
+        eprintln!("ttb: warning: {warning}");
+    }
+    std::fs::create_dir_all(&arguments.output).map_err(Error::io(&arguments.output))?;
+    run_connected(&opened.job, connected, arguments, &stop, begin)
+}
+
+/// From initialization to the summary.
+fn run_connected(
+    job: &Job,
+    mut connected: Connected,
+    arguments: &Run,
+    stop: &AtomicBool,
+    begin: Instant,
+) -> Result<(), Error> {
+    let folder = &arguments.output;
+    let (axis, output) = (TimeAxis::new(job.step, job.end), job.output);
     let Connected { train_track, bridge, .. } = &mut connected;
     let recorder = Recorder::new(folder, train_track, bridge, output.supports, output.every, axis.steps())?;
     let mut log = Log {
@@ -61,10 +92,10 @@ fn run_isolated(arguments: &Run, isolated: &Isolated) -> Result<(), Error> {
         bar: progress_bar(axis.steps(), arguments.quiet),
     };
     let mut seconds = Seconds::default();
-    let outcome = simulate(&mut connected, axis, &mut log, &stop, begin, &mut seconds);
+    let outcome = simulate(&mut connected, axis, &mut log, stop, begin, &mut seconds);
     log.bar.finish_and_clear();
     let outcome = outcome.and(log.recorder.flush());
-    finish(&checked, &log, outcome, seconds, &connected, folder, arguments.quiet)
+    finish(job, &log, outcome, seconds, &connected, folder, arguments.quiet)
 }
 
 /// Results of a run as they come.
@@ -139,7 +170,7 @@ fn simulate(
 
 /// Summary and picture, also of a run that failed; its error is passed on.
 fn finish(
-    checked: &Checked,
+    job: &Job,
     log: &Log,
     outcome: Result<(), Error>,
     seconds: Seconds,
@@ -149,13 +180,13 @@ fn finish(
 ) -> Result<(), Error> {
     let coupling = CouplingReport::new(&connected.coupling);
     let (iterations, warnings) = (&log.iterations, &connected.warnings);
-    let summary = Summary::new(checked, &outcome, log.reached, iterations, coupling, seconds, warnings, &log.peaks);
+    let summary = Summary::new(job, &outcome, log.reached, iterations, coupling, seconds, warnings, &log.peaks);
     let written = summary.write(&folder.join("summary.json"));
     if !quiet {
         summary.print(folder);
     }
     let picture = folder.join("results.svg");
-    let drawn = log.plot.draw(&picture, &checked.scenario.title);
+    let drawn = log.plot.draw(&picture, &job.title);
     let drawn = drawn.map_err(|e| Error::Io { path: picture, source: std::io::Error::other(e) });
     outcome.and(written).and(drawn)
 }

@@ -5,11 +5,10 @@ use std::path::Path;
 use serde::Serialize;
 use ttb_coupling::StepInfo;
 use ttb_coupling::iteration::Outcome;
-use ttb_scenario::Checked;
-use ttb_scenario::spec::Profile;
 
 use crate::coupled::CouplingReport;
 use crate::error::Error;
+use crate::job::{Job, Origin};
 use crate::peaks::{ContactLoss, Peak, Peaks};
 
 /// Iterations over a run.
@@ -85,7 +84,10 @@ pub struct Summary<'a> {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub error: Option<String>,
     title: &'a str,
-    scenario_sha256: &'a str,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    scenario_sha256: Option<&'a str>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    system_sha256: Option<&'a str>,
     #[serde(skip_serializing_if = "Option::is_none")]
     irregularity_seed: Option<u64>,
     versions: Versions,
@@ -110,7 +112,7 @@ struct Versions {
 impl<'a> Summary<'a> {
     /// Of a run that reached `reached` seconds.
     pub fn new(
-        checked: &'a Checked,
+        job: &'a Job,
         outcome: &'a Result<(), Error>,
         reached: f64,
         iterations: &'a Iterations,
@@ -119,19 +121,20 @@ impl<'a> Summary<'a> {
         warnings: &'a [String],
         peaks: &'a Peaks,
     ) -> Self {
-        let seed = match checked.train_track.irregularity {
-            Profile::Spectrum { seed, .. } => Some(seed),
-            _ => None,
+        let (scenario_sha256, system_sha256) = match &job.origin {
+            Origin::Scenario(hash) => (Some(hash.as_str()), None),
+            Origin::System(hash) => (None, Some(hash.as_str())),
         };
         Self {
             status: outcome.as_ref().map_or_else(Error::status, |()| "ok"),
             error: outcome.as_ref().err().map(ToString::to_string),
-            title: &checked.scenario.title,
-            scenario_sha256: &checked.hash,
-            irregularity_seed: seed,
+            title: &job.title,
+            scenario_sha256,
+            system_sha256,
+            irregularity_seed: job.irregularity_seed,
             versions: Versions { ttb: env!("CARGO_PKG_VERSION"), fmi: "2.0" },
-            step_s: checked.train_track.step,
-            end_s: checked.train_track.end,
+            step_s: job.step,
+            end_s: job.end,
             reached_s: reached,
             iterations,
             coupling,

@@ -28,7 +28,7 @@ def test_help_teaches_the_exit_codes_and_every_command(ttb):
     said = " ".join(ttb("--help").stdout.split())
     codes = ["0 ok", "2 bad input", "3 a step did not converge", "4 an FMU failed", "5 input or output failed", "130 interrupted"]
     assert [code for code in codes if code not in said] == []
-    for command in ("run", "build", "check-scenario", "schema"):
+    for command in ("run", "build", "export-ssp", "check-scenario", "schema"):
         assert command in said
         assert "Usage: ttb" in ttb(command, "--help").stdout
 

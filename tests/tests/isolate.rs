@@ -107,6 +107,25 @@ fn an_isolated_run_gives_the_bits_of_one_that_is_not() {
     assert_nothing_is_left(folder.path());
 }
 
+#[test]
+fn the_fmus_of_a_system_structure_can_be_isolated() {
+    let folder = TempDir::new().expect("folder");
+    let scenario = scenario(folder.path());
+    let system = folder.path().join("short.ssp");
+    let exported = Command::new(ttb()).arg("export-ssp").arg(&scenario).arg("-o").arg(&system).output().expect("ttb");
+    assert!(exported.status.success(), "{}", text(&exported.stderr));
+    let results = |arguments: &[&str]| {
+        let done = run(folder.path(), &system, arguments).output().expect("ttb");
+        assert!(done.status.success(), "{}", text(&done.stderr));
+        std::fs::read(folder.path().join("out/results.csv")).expect("results")
+    };
+    let here = results(&[]);
+    for side in ["--isolate", "--isolate=bridge", "--isolate=train-track"] {
+        assert!(here == results(&[side]), "{side}");
+    }
+    assert_nothing_is_left(folder.path());
+}
+
 /// A spoiled bridge: exit code 4, the results up to there, and the message.
 fn fails(what: &str, arguments: &[&str]) -> (String, Output) {
     let folder = TempDir::new().expect("folder");

@@ -17,7 +17,14 @@ const NEAR: f64 = 1e-6;
 /// # Errors
 /// All problems of the files; a station outside the file's supports.
 pub fn assemble(files: &Files, folder: &Path, stations: &[f64]) -> Result<Assembled, ModelError> {
-    let imported = files.read(folder).map_err(|problems| ModelError(problems.to_string()))?;
+    from(files.read(folder).map_err(|problems| ModelError(problems.to_string()))?, stations)
+}
+
+/// From what was read.
+///
+/// # Errors
+/// A station outside the file's supports.
+pub fn from(imported: Imported, stations: &[f64]) -> Result<Assembled, ModelError> {
     let supports = (1..).zip(stations).map(|(number, &x)| support(&imported.supports, number, x));
     let supports = supports.collect::<Result<_, _>>()?;
     // As much as moves in a rigid translation; 0 when directions are unknown.

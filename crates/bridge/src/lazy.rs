@@ -59,6 +59,37 @@ impl Lazy {
         Some(Self { rows: permuted, supports, of_rows, of_supports, compliance, corrected })
     }
 
+    /// Panels that R reaches.
+    pub fn reach(&self) -> &[u32] {
+        &self.of_rows
+    }
+
+    /// Panels that B reaches.
+    pub fn support_reach(&self) -> &[u32] {
+        &self.of_supports
+    }
+
+    /// R x of [`LANES`] vectors side by side in the order of elimination.
+    pub fn see_many(&self, x: &[f64], r: &mut [f64]) {
+        for (i, r) in r.chunks_exact_mut(LANES).enumerate() {
+            r.fill(0.0);
+            for (&c, w) in self.rows.columns(i).iter().zip(self.rows.weights(i)) {
+                let x = &x[c as usize * LANES..][..LANES];
+                r.iter_mut().zip(x).for_each(|(r, x)| *r += w * x);
+            }
+        }
+    }
+
+    /// x ← x + Bᵀ f of [`LANES`] runs.
+    pub fn load_many(&self, forces: [&[f64]; LANES], x: &mut [f64]) {
+        for i in 0..self.supports {
+            for (&c, w) in self.rows.columns(i).iter().zip(self.rows.weights(i)) {
+                let x = &mut x[c as usize * LANES..][..LANES];
+                x.iter_mut().zip(&forces).for_each(|(x, f)| *x += w * f[i]);
+            }
+        }
+    }
+
     /// S.
     pub fn compliance(&self) -> &Dense {
         &self.compliance

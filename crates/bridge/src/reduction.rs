@@ -15,7 +15,7 @@ use serde::{Deserialize, Serialize};
 use ttb_coupling::ModelError;
 use ttb_dynamics::krylov::Krylov;
 use ttb_dynamics::newmark::{Motion, Newmark};
-use ttb_dynamics::reduction::{Answers, StepMatrix, reduce};
+use ttb_dynamics::reduction::{Answers, Shifted, reduce};
 use ttb_dynamics::sparse::Pencil;
 use ttb_scenario::types::Reduction;
 
@@ -26,10 +26,12 @@ use crate::rows::Rows;
 use crate::system::{Base, Law, Step, System, Work};
 
 /// First highest frequency that is tried, Hz, and the factor to the next.
-const FIRST: f64 = 60.0;
+const FIRST: f64 = 30.0;
 const NEXT: f64 = 1.4;
 /// No basis grows beyond so many vectors.
-const MOST: usize = 2400;
+const MOST: usize = 1600;
+/// Pseudo-modes with a smaller share in every compliance are left out.
+const NEGLIGIBLE: f64 = 1e-6;
 /// Steps of the probe.
 const PROBE: usize = 240;
 
@@ -88,14 +90,22 @@ pub fn build(
     drop(full);
     let [a0, a1, ..] = newmark.a;
     let (c_k, c_m) = (1.0 + a1 * law.beta, a0 + a1 * law.alpha);
-    let step = pencil.factor(c_k, c_m, 0.0).map_err(failed)?;
-    let step = StepMatrix { factor: &step, stiffness: c_k, mass: c_m };
-    let answers = Answers::new(pencil, &stiffness, &step, rows, supports);
-    let mut krylov = Krylov::new(pencil, &stiffness, &rows[..supports]);
     let mut hertz = wish.highest_frequency.unwrap_or(FIRST);
+    // Between statics and a step, on a logarithmic scale.
+    let between = std::f64::consts::TAU * hertz * (c_m / c_k).sqrt();
+    let answers = {
+        let shifts = [[1.0, 0.0], [1.0, between], [c_k, c_m]];
+        let factors = shifts.iter().map(|[c_k, c_m]| pencil.factor(*c_k, *c_m, 0.0)).collect::<Result<Vec<_>, _>>();
+        let factors = factors.map_err(failed)?;
+        let shifted = factors.iter().zip(shifts);
+        let combinations: Vec<Shifted> =
+            shifted.map(|(factor, [stiffness, mass])| Shifted { factor, stiffness, mass }).collect();
+        Answers::new(pencil, &combinations, rows, supports)
+    };
+    let mut krylov = Krylov::new(pencil, &stiffness, &rows[..supports]);
     loop {
         let ritz = krylov.modes(std::f64::consts::TAU * hertz, MOST);
-        let basis = reduce(&answers, &krylov, &ritz, rows);
+        let basis = reduce(&answers, &krylov, &ritz, rows, NEGLIGIBLE);
         let modes = basis.modes;
         let pseudo_modes = basis.omega2.len() - modes;
         let rows = Rows::Dense(basis.rows);

@@ -118,7 +118,6 @@ fn best(pattern: SymbolicSparseColMatRef<'_, u32>, layout: &Layout) -> Result<Pa
         return Ok(by_degree);
     }
     let dissected = finish(nested_dissection(&graph, &layout.place))?;
-    eprintln!("amd {} nd {}", by_degree.all_entries(), dissected.all_entries());
     Ok(if dissected.all_entries() < by_degree.all_entries() { dissected } else { by_degree })
 }
 

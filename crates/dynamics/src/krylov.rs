@@ -25,7 +25,7 @@ const MUCH: f64 = 1e-4;
 /// Squares below this part of what they were before the orthogonalisation are rounding.
 const ROUNDING: f64 = 1e-22;
 /// Residual of A φ = θ φ relative to θ at which a mode is taken as found.
-const TOLERANCE: f64 = 1e-9;
+const TOLERANCE: f64 = 1e-7;
 
 /// The process; can be continued for more modes.
 pub struct Krylov<'a> {

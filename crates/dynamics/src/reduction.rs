@@ -1,21 +1,21 @@
-//! Reduced models that see a structure through a few rows: the modes that the loads excite, corrected statically and for
-//! one step size.
+//! Reduced models that see a structure through a few rows: the modes that the loads excite, corrected
+//! statically, for one step size, and in between.
 //!
 //! ```text
 //! Φ: K Φ = M Φ Λ up to a highest frequency        P = Φᵀ Bᵀ
-//! X = K⁻¹Bᵀ − Φ Λ⁻¹ P                             what the modes leave of the static compliance B K⁻¹ Bᵀ
-//! Y = K̂⁻¹Bᵀ − Φ Λ̂⁻¹ P,  K̂ = c_K K + c_M M         what they leave of a step's compliance S = B K̂⁻¹ Bᵀ
+//! Z = (c K + m M)⁻¹Bᵀ − Φ (cΛ + m)⁻¹ P             what the modes leave of the compliance B (c K + m M)⁻¹ Bᵀ
 //! ```
 //!
-//! The model spanned by Φ, X and Y answers static loads and each single step exactly, and vibrates exactly in all modes of
-//! Φ. Since K X and K̂ Y are known in advance, its matrices need almost no work; only XᵀMX and YᵀMY do:
+//! for a few combinations (c, m): statics (1, 0), a step (c_K, c_M) and, between them, others that represent all modes
+//! above the highest frequency. The model spanned by Φ and all Z answers static loads and each single step exactly, and
+//! vibrates exactly in the modes of Φ. Its matrices need almost no work, because (c K + m M) Z is known in advance:
 //!
 //! ```text
-//! XᵀKX = B X       XᵀKY = B Y                      YᵀK̂Y = B Y          (each less its part in Φ)
-//! XᵀMY = (B X − c_K B Y)/c_M                        ΦᵀKX = ΦᵀMX = ΦᵀKY = ΦᵀMY = 0
+//! ZₐᵀKZ_b = (mₐ B Zₐ − m_b B Z_b)/(c_b mₐ − cₐ m_b)      ZₐᵀMZ_b = (c_b B Z_b − cₐ B Zₐ)/(c_b mₐ − cₐ m_b)
+//! ZₐᵀKZₐ = (B Zₐ − mₐ ZₐᵀMZₐ)/cₐ                          ΦᵀKZ = ΦᵀMZ = 0
 //! ```
 //!
-//! A small eigenproblem then turns X and Y into pseudo-modes, so that every equation stands alone. (Craig & Kurdila,
+//! A small eigenproblem then turns all Z into pseudo-modes, so that every equation stands alone. (Craig & Kurdila,
 //! Fundamentals of Structural Dynamics, 2006, chapter 17; MacNeal, Computers & Structures 1, 1971, 581–601.)
 
 use faer::{Mat, MatRef, Side};
@@ -37,8 +37,8 @@ pub struct Basis {
     pub modes: usize,
 }
 
-/// A step's matrix K̂ = c_K K + c_M M.
-pub struct StepMatrix<'a> {
+/// A combination c_K K + c_M M.
+pub struct Shifted<'a> {
     /// Its factor.
     pub factor: &'a Factor,
     /// c_K.
@@ -52,67 +52,79 @@ const DEPENDENT: f64 = 1e-10;
 /// Least 1/ω² of a pseudo-mode relative to the largest: below, rounding.
 const STIFFEST: f64 = 1e-14;
 
-/// R Z and ZᵀMZ of Z = K⁻¹Bᵀ and of Z = K̂⁻¹Bᵀ: all that a reduction needs of the large model besides its modes.
-pub struct Answers {
-    x: (Mat<f64>, Mat<f64>),
-    y: (Mat<f64>, Mat<f64>),
+/// R Z and ZᵀMZ of Z = (c_K K + c_M M)⁻¹Bᵀ for one combination.
+struct Answer {
     stiffness: f64,
     mass: f64,
+    seen: Mat<f64>,
+    inertia: Mat<f64>,
 }
 
+/// All that a reduction needs of the large model besides its modes.
+pub struct Answers(Vec<Answer>);
+
 impl Answers {
-    /// B are the first `supports` of the `rows`; `stiffness` is the factor of K.
-    pub fn new(
-        pencil: &Pencil,
-        stiffness: &Factor,
-        step: &StepMatrix,
-        rows: &[Vec<(u32, f64)>],
-        supports: usize,
-    ) -> Self {
-        let x = responses(pencil, stiffness, &rows[..supports], rows);
-        let y = responses(pencil, step.factor, &rows[..supports], rows);
-        Self { x, y, stiffness: step.stiffness, mass: step.mass }
+    /// To loads through B, the first `supports` of the `rows`, under each of the combinations.
+    pub fn new(pencil: &Pencil, combinations: &[Shifted], rows: &[Vec<(u32, f64)>], supports: usize) -> Self {
+        let answer = |shifted: &Shifted| {
+            let (seen, inertia) = responses(pencil, shifted.factor, &rows[..supports], rows);
+            Answer { stiffness: shifted.stiffness, mass: shifted.mass, seen, inertia }
+        };
+        Self(combinations.iter().map(answer).collect())
     }
 }
 
-/// The model.
-pub fn reduce(answers: &Answers, krylov: &Krylov, ritz: &Ritz, rows: &[Vec<(u32, f64)>]) -> Basis {
-    let Answers { x: (x_seen, x_mass), y: (y_seen, y_mass), stiffness: c_k, mass: c_m } = answers;
-    let (c_k, c_m, supports) = (*c_k, *c_m, x_mass.ncols());
+/// The model. Pseudo-modes that matter less than `negligible` (relative, in every combination's compliance) are left out.
+pub fn reduce(answers: &Answers, krylov: &Krylov, ritz: &Ritz, rows: &[Vec<(u32, f64)>], negligible: f64) -> Basis {
+    let s = answers.0.first().map_or(0, |answer| answer.inertia.ncols());
     let seen = krylov.seen(ritz, rows);
-    // Less Φ diag((c_K ω² + shift)^power) P, seen through the rows.
-    let less = |matrix: &Mat<f64>, power: f64, shift: f64, factor: f64| -> Mat<f64> {
-        let weights: Vec<f64> = ritz.omega2.iter().map(|w2| (factor * w2 + shift).powf(power)).collect();
-        let weighted = Mat::from_fn(weights.len(), supports, |k, j| weights[k] * seen[(j, k)]);
+    // Each less its part in the modes, Φ diag((c_K ω² + c_M)^power) P seen through the rows.
+    let less = |matrix: &Mat<f64>, power: i32, answer: &Answer| -> Mat<f64> {
+        let weight = |w2: &f64| (answer.stiffness * w2 + answer.mass).powi(power);
+        let weights: Vec<f64> = ritz.omega2.iter().map(weight).collect();
+        let weighted = Mat::from_fn(weights.len(), s, |k, j| weights[k] * seen[(j, k)]);
         let part = seen.subrows(0, matrix.nrows()) * &weighted;
         matrix - part
     };
-    // R X and R Y, less their part in the modes.
-    let (rx, ry) = (less(x_seen, -1.0, 0.0, 1.0), less(y_seen, -1.0, c_m, c_k));
-    let (kxx, kxy) = (rx.subrows(0, supports).to_owned(), ry.subrows(0, supports).to_owned());
-    let (mxx, myy) = (less(x_mass, -2.0, 0.0, 1.0), less(y_mass, -2.0, c_m, c_k));
-    let s = supports;
-    let k = symmetric(2 * s, |i, j| match (i < s, j < s) {
-        (true, true) => kxx[(i, j)],
-        (false, false) => (kxy[(i - s, j - s)] - c_m * myy[(i - s, j - s)]) / c_k,
-        (true, false) => kxy[(i, j - s)],
-        (false, true) => kxy[(j, i - s)],
-    });
-    let m = symmetric(2 * s, |i, j| match (i < s, j < s) {
-        (true, true) => mxx[(i, j)],
-        (false, false) => myy[(i - s, j - s)],
-        (true, false) => (kxx[(i, j - s)] - c_k * kxy[(i, j - s)]) / c_m,
-        (false, true) => (kxx[(j, i - s)] - c_k * kxy[(j, i - s)]) / c_m,
-    });
-    let (pseudo, shapes) = pseudo_modes(&k, &m);
-    let both = Mat::from_fn(rows.len(), 2 * s, |i, j| if j < s { rx[(i, j)] } else { ry[(i, j - s)] });
-    let pseudo_rows = &both * &shapes;
+    let of_rows: Vec<Mat<f64>> = answers.0.iter().map(|answer| less(&answer.seen, -1, answer)).collect();
+    let inertia: Vec<Mat<f64>> = answers.0.iter().map(|answer| less(&answer.inertia, -2, answer)).collect();
+    // Entries (i, j) of ZₐᵀKZ_b and ZₐᵀMZ_b from Zₐᵀ(c_b K + m_b M)Z_b = B Zₐ and its counterpart.
+    let pair = |a: usize, b: usize, i: usize, j: usize| -> (f64, f64) {
+        let [(ca, ma), (cb, mb)] = [a, b].map(|x| (answers.0[x].stiffness, answers.0[x].mass));
+        let (ga, gb) = (of_rows[a][(i, j)], of_rows[b][(i, j)]);
+        if a == b {
+            let m = inertia[a][(i, j)];
+            ((ga - ma * m) / ca, m)
+        } else {
+            let determinant = cb * ma - ca * mb;
+            ((ma * ga - mb * gb) / determinant, (cb * gb - ca * ga) / determinant)
+        }
+    };
+    let n = s * answers.0.len();
+    let k = symmetric(n, |i, j| pair(i / s, j / s, i % s, j % s).0);
+    let m = symmetric(n, |i, j| pair(i / s, j / s, i % s, j % s).1);
+    let (omega2, shapes) = pseudo_modes(&k, &m);
+    let all = Mat::from_fn(rows.len(), n, |i, j| of_rows[j / s][(i, j % s)]);
+    let pseudo_rows = &all * &shapes;
+    let kept = significant(answers, &omega2, &pseudo_rows, s, negligible);
     let modes = ritz.omega2.len();
-    let columns = modes + pseudo.len();
-    let number = |i: usize, j: usize| if j < modes { seen[(i, j)] } else { pseudo_rows[(i, j - modes)] };
+    let columns = modes + kept.len();
+    let number = |i: usize, j: usize| if j < modes { seen[(i, j)] } else { pseudo_rows[(i, kept[j - modes])] };
     let data = (0..rows.len()).flat_map(|i| (0..columns).map(move |j| (i, j))).map(|(i, j)| number(i, j));
     let rows = Dense::new(columns, data.collect());
+    let pseudo = kept.iter().map(|&j| omega2[j]);
     Basis { omega2: ritz.omega2.iter().copied().chain(pseudo).collect(), rows, modes }
+}
+
+/// Pseudo-modes whose share in some combination's compliance, at some support, is not negligible.
+fn significant(answers: &Answers, omega2: &[f64], rows: &Mat<f64>, supports: usize, negligible: f64) -> Vec<usize> {
+    let matters = |j: usize| {
+        answers.0.iter().any(|answer| {
+            let impedance = answer.stiffness * omega2[j] + answer.mass;
+            (0..supports).any(|i| rows[(i, j)].powi(2) > negligible * answer.seen[(i, i)] * impedance)
+        })
+    };
+    (0..omega2.len()).filter(|&j| matters(j)).collect()
 }
 
 /// R Z and ZᵀMZ of Z = A⁻¹Bᵀ.

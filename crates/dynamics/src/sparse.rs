@@ -9,6 +9,7 @@ use std::sync::Arc;
 use faer::sparse::{SparseColMatRef, SymbolicSparseColMat};
 
 use crate::factor::{Factor, FactorError, Layout, Symbolic};
+use crate::sweeps::LANES;
 
 /// Collects element matrices.
 #[derive(Clone, Debug, Default)]
@@ -163,6 +164,32 @@ impl Symmetric {
     }
 }
 
+/// A symmetric matrix to multiply several vectors with.
+#[derive(Clone, Debug)]
+pub struct Product(Symmetric);
+
+impl Product {
+    /// Y ← Y + A X for [`LANES`] vectors side by side.
+    pub fn add_many(&self, x: &[f64], y: &mut [f64]) {
+        let Symmetric { starts, rows, values } = &self.0;
+        let (x, _) = x.as_chunks::<LANES>();
+        let (y, _) = y.as_chunks_mut::<LANES>();
+        pulp::Arch::new().dispatch(|| {
+            for (j, xj) in x.iter().enumerate() {
+                let column = starts[j] as usize..starts[j + 1] as usize;
+                let mut yj = y[j];
+                for (&i, a) in rows[column.clone()].iter().zip(&values[column]) {
+                    if i as usize != j {
+                        y[i as usize].iter_mut().zip(xj).for_each(|(y, x)| *y += a * x);
+                    }
+                    yj.iter_mut().zip(&x[i as usize]).for_each(|(y, x)| *y += a * x);
+                }
+                y[j] = yj;
+            }
+        });
+    }
+}
+
 /// The numbers of a [`Pencil`], to be stored.
 #[derive(Clone, Debug, serde::Serialize, serde::Deserialize)]
 pub struct Raw {
@@ -223,6 +250,20 @@ impl Pencil {
             let column = starts[j] as usize..starts[j + 1] as usize;
             rows[column.clone()].iter().zip(&values[column]).map(move |(&i, &c)| (i, j as u32, c))
         })
+    }
+    /// M over degrees of freedom in another order, number i becoming `position[i]`, for several vectors at once.
+    pub fn mass_in(&self, position: &[u32]) -> Product {
+        let Symmetric { starts, rows, values } = &self.mass;
+        let columns = (0..self.ndof()).flat_map(|j| {
+            let column = starts[j] as usize..starts[j + 1] as usize;
+            rows[column.clone()].iter().zip(&values[column]).map(move |(&i, &m)| (i, j, m))
+        });
+        let moved = columns.map(|(i, j, m)| {
+            let [i, j] = [position[i as usize], position[j]];
+            Entry { column: i.min(j), row: i.max(j), k: m, m: 0.0 }
+        });
+        let entries = merged(moved.collect());
+        Product(Symmetric::new(self.ndof(), entries.into_iter()))
     }
     /// Diagonals of K and M.
     pub fn diagonals(&self) -> impl Iterator<Item = (f64, f64)> {

@@ -4,7 +4,7 @@ use ttb_dynamics::blocks::solve;
 use ttb_dynamics::factor::Layout;
 use ttb_dynamics::krylov::Krylov;
 use ttb_dynamics::modes::lowest;
-use ttb_dynamics::reduction::{Answers, Basis, StepMatrix, reduce};
+use ttb_dynamics::reduction::{Answers, Basis, Shifted, reduce};
 use ttb_dynamics::sparse::{Assembly, Pencil};
 
 /// A strip of springs on soft ground, two degrees of freedom a node.
@@ -49,9 +49,12 @@ fn basis(long: usize, highest: f64) -> (Pencil, Basis) {
     let rows = rows(long);
     let mut krylov = Krylov::new(&pencil, &stiffness, &rows[..long / 4]);
     let ritz = krylov.modes(highest, 2000);
-    let step = StepMatrix { factor: &step, stiffness: C[0], mass: C[1] };
-    let answers = Answers::new(&pencil, &stiffness, &step, &rows, long / 4);
-    let basis = reduce(&answers, &krylov, &ritz, &rows);
+    let combinations = [
+        Shifted { factor: &stiffness, stiffness: 1.0, mass: 0.0 },
+        Shifted { factor: &step, stiffness: C[0], mass: C[1] },
+    ];
+    let answers = Answers::new(&pencil, &combinations, &rows, long / 4);
+    let basis = reduce(&answers, &krylov, &ritz, &rows, 0.0);
     (pencil, basis)
 }
 

@@ -2,6 +2,7 @@
 //!
 //! [`export`] puts any [`ttb_coupling::Model`] behind the 44 C functions of the standard: [`export_fmu!`] is all a shared
 //! library needs. [`import`] loads anyone's FMU and makes it a [`ttb_coupling::Subsystem`].
+//! [`probe`] calls without protection, to find out what an FMU is worth.
 //! [`types`] are the C types both share. This is the only library crate with `unsafe`; it never leaks into its interface.
 
 pub mod export;
@@ -9,4 +10,5 @@ pub mod export;
 pub mod import;
 #[cfg(feature = "import")]
 pub mod isolate;
+pub mod probe;
 pub mod types;

@@ -90,3 +90,25 @@ fn bombs_do_not_go_off() {
     let xml = format!("<!DOCTYPE x [<!ENTITY l0 'ha'>{laughs}]>{}", document(SLAVE).replace("\"m\"", "\"&l9;\""));
     assert_eq!(read_description(xml.as_bytes()).unwrap().model_name, "&l9;");
 }
+
+#[test]
+fn a_name_or_a_reference_with_two_meanings_is_ambiguous() {
+    let variable = |name: &str, reference: u32, causality: &str| {
+        format!(
+            "<ScalarVariable name='{name}' valueReference='{reference}' causality='{causality}'><Real/></ScalarVariable>"
+        )
+    };
+    let of = |variables: &[String]| {
+        let xml = format!(
+            "<fmiModelDescription fmiVersion='2.0' guid='g'><CoSimulation modelIdentifier='M'/><ModelVariables>{}</ModelVariables>\
+             </fmiModelDescription>",
+            variables.concat()
+        );
+        read_description(xml.as_bytes()).unwrap().ambiguity()
+    };
+    let (a, b) = (variable("a", 1, "input"), variable("b", 1, "input"));
+    assert_eq!(of(&[a.clone(), b]).unwrap(), "the inputs a and b share the value reference 1");
+    assert_eq!(of(&[a.clone(), variable("a", 2, "output")]).unwrap(), "two variables are called a");
+    // Aliases of outputs and locals are common and harmless.
+    assert_eq!(of(&[a, variable("y", 2, "output"), variable("z", 2, "output"), variable("a", 1, "local")]), None);
+}

@@ -142,6 +142,14 @@ fn warnings_are_counted_and_messages_are_kept_within_bounds() {
 }
 
 #[test]
+fn text_that_is_no_format_is_logged_as_it_is() {
+    let made = foreign(CAPABLE, false);
+    let mut instance = Fmu::open(&made.path).unwrap().instantiate("odd", false).unwrap();
+    let texts: Vec<_> = instance.take_messages().into_iter().map(|m| m.text).collect();
+    assert_eq!(texts, ["loaded to 50 % of %n", "cut at %"]);
+}
+
+#[test]
 fn what_an_fmu_cannot_do_is_an_error_not_a_crash() {
     let made = foreign("", true);
     let fmu = Fmu::open(&made.path).unwrap();

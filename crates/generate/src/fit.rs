@@ -18,14 +18,10 @@ const SLACK: f64 = 0.04;
 /// Most elements between two cross-beams.
 const MOST: usize = 200;
 
-/// Length of elements along the girder as part of their width: wheels load the girder along its axis, and the fewer nodes a
-/// cross-section has, the less work a solution is.
-const LENGTH: f64 = 0.5;
-
 /// Sizes upright that are tried, as parts of the size across.
 const UPRIGHT: [f64; 7] = [0.5, 0.7, 0.85, 1.0, 1.2, 1.4, 2.0];
 
-/// Sizes that give about `dofs` degrees of freedom as `count` counts them: the elements nearest in shape within 4 %,
+/// Sizes that give about `dofs` degrees of freedom as `count` counts them: the most nearly square elements within 4 %,
 /// or else the nearest number. Along the girder `bay`, the distance of cross-beams, is divided evenly; across `width`.
 pub(crate) fn fit(dofs: usize, bay: f64, width: f64, count: impl Fn(Mesh) -> usize) -> Result<Mesh, Refused> {
     let mut rules = Rules::default();
@@ -43,7 +39,7 @@ pub(crate) fn fit(dofs: usize, bay: f64, width: f64, count: impl Fn(Mesh) -> usi
                 let mesh = Mesh { along: bay / n as f64, across, up: part * across };
                 let off = count(mesh) as f64 / asked - 1.0;
                 // outside the slack the error counts, inside it the shape
-                let shape = (mesh.along / (LENGTH * across)).ln().abs() + 0.5 * part.ln().abs();
+                let shape = (mesh.along / across).ln().abs() + 0.5 * part.ln().abs();
                 let key = if off.abs() <= SLACK { (0, shape + 10.0 * off.abs()) } else { (1, off.abs()) };
                 if key < best.0 {
                     best = (key, mesh);

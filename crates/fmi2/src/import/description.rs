@@ -111,6 +111,28 @@ impl ModelDescription {
         self.by_name.get(name).map(|i| &self.variables[*i])
     }
 
+    /// What makes it impossible to say which variable a name or a value reference means: two inputs or outputs of one
+    /// name, two Real inputs of one reference.
+    pub fn ambiguity(&self) -> Option<String> {
+        let mut names: HashMap<&str, &str> = HashMap::new();
+        let mut inputs: HashMap<u32, &str> = HashMap::new();
+        for v in self.variables.iter().filter(|v| matches!(v.causality.as_str(), "input" | "output")) {
+            if names.insert(&v.name, &v.causality).is_some() {
+                return Some(format!("two variables are called {}", v.name));
+            }
+            if v.kind != VariableType::Real || v.causality != "input" {
+                continue;
+            }
+            if let Some(other) = inputs.insert(v.value_reference, &v.name) {
+                return Some(format!(
+                    "the inputs {other} and {} share the value reference {}",
+                    v.name, v.value_reference
+                ));
+            }
+        }
+        None
+    }
+
     /// All variables of a causality, in the order of the file.
     pub fn with_causality<'a>(&'a self, causality: &'a str) -> impl Iterator<Item = &'a ScalarVariable> {
         self.variables.iter().filter(move |v| v.causality == causality)

@@ -4,7 +4,7 @@ use super::description::ModelDescription;
 use super::error::FmuError;
 use super::instance::FmuInstance;
 use super::library::Functions;
-use super::reader::read_description;
+use super::reader::{DescriptionError, read_description};
 use super::unpack::unpack;
 #[cfg(target_os = "linux")]
 use crate::import::messages::Sink;
@@ -117,12 +117,16 @@ fn unpacked(path: &Path) -> Result<(TempDir, ModelDescription), FmuError> {
     let folder = unpack(path).map_err(|source| FmuError::Unpack { fmu: fmu(), source })?;
     let xml = std::fs::read(folder.path().join("modelDescription.xml"));
     let description = xml.map_err(Into::into).and_then(|xml| read_description(&xml));
+    let description = description.and_then(|d: ModelDescription| match d.ambiguity() {
+        None => Ok(d),
+        Some(what) => Err(DescriptionError::Ambiguous(what)),
+    });
     let description = description.map_err(|source| FmuError::Description { fmu: fmu(), source })?;
     Ok((folder, description))
 }
 
 /// `file:///…` of a folder, percent-encoded.
-pub(super) fn file_uri(folder: &Path) -> String {
+pub fn file_uri(folder: &Path) -> String {
     let mut uri = String::from("file://");
     for byte in folder.as_os_str().as_encoded_bytes() {
         match byte {

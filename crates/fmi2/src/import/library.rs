@@ -144,15 +144,9 @@ impl Functions {
             | there(self.directional_derivative.is_some(), Optional::DirectionalDerivative)
     }
 
-    /// Loads the library of an unpacked FMU. RTLD_NOW: a symbol that is nowhere shows here, not in the middle of a run.
+    /// Loads the library of an unpacked FMU.
     pub fn load(folder: &Path, model_identifier: &str) -> Result<Self, LibraryError> {
-        use ttb_model_description::package::{LIBRARY_EXTENSION, PLATFORM};
-        let wanted = format!("binaries/{PLATFORM}/{model_identifier}.{LIBRARY_EXTENSION}");
-        let path = folder.join(&wanted);
-        if !path.is_file() {
-            return Err(LibraryError::NoBinary { wanted, found: platforms(folder) });
-        }
-        let functions = Self::bind(open(&path, RTLD_NOW | RTLD_LOCAL)?)?;
+        let functions = Self::bind(open_library(&library_path(folder, model_identifier)?)?)?;
         // SAFETY: takes nothing, and answers with a zero-terminated constant.
         let version = unsafe { (functions.get_version)() };
         // SAFETY: as above; the null check is for FMUs that do not.
@@ -162,7 +156,24 @@ impl Functions {
     }
 }
 
-fn platforms(folder: &Path) -> String {
+/// Where the library for this machine lies in an unpacked FMU.
+///
+/// # Errors
+/// It has none.
+pub fn library_path(folder: &Path, model_identifier: &str) -> Result<PathBuf, LibraryError> {
+    use ttb_model_description::package::{LIBRARY_EXTENSION, PLATFORM};
+    let wanted = format!("binaries/{PLATFORM}/{model_identifier}.{LIBRARY_EXTENSION}");
+    let path = folder.join(&wanted);
+    if path.is_file() { Ok(path) } else { Err(LibraryError::NoBinary { wanted, found: platforms(folder) }) }
+}
+
+/// Loads it. RTLD_NOW: a symbol that is nowhere shows here, not in the middle of a run.
+pub(crate) fn open_library(path: &Path) -> Result<Library, LibraryError> {
+    open(path, RTLD_NOW | RTLD_LOCAL)
+}
+
+/// Platforms an unpacked FMU has binaries for.
+pub fn platforms(folder: &Path) -> String {
     let entries = std::fs::read_dir(folder.join("binaries")).into_iter().flatten().flatten();
     let mut names: Vec<String> = entries.map(|e| e.file_name().to_string_lossy().into_owned()).collect();
     names.sort();

@@ -3,6 +3,7 @@
  * is the Rust function, so that no symbol of ours needs to be visible to anyone. */
 #include <stdarg.h>
 #include <stdio.h>
+#include "format.h"
 
 struct sink {
     void (*write)(void *sink, int status, const char *category, const char *text);
@@ -14,7 +15,9 @@ void ttb_fmi2_logger(void *environment, const char *instance, int status, const 
     (void)instance;
     if (!environment) return;
     text[0] = '\0';
-    if (message) {
+    if (message && format_is_odd(message)) {
+        snprintf(text, sizeof text, "%s", message);
+    } else if (message) {
         va_start(arguments, message);
         if (vsnprintf(text, sizeof text, message, arguments) < 0) snprintf(text, sizeof text, "(unprintable message)");
         va_end(arguments);

@@ -36,6 +36,9 @@ pub enum DescriptionError {
     /// Model exchange only.
     #[error("has no CoSimulation element: this FMU is for model exchange only")]
     NoCoSimulation,
+    /// A name or value reference with two meanings.
+    #[error("is ambiguous: {0}")]
+    Ambiguous(String),
     /// A necessary attribute is missing or is no number.
     #[error("{element} has no usable attribute {attribute}")]
     Attribute {

@@ -4,6 +4,7 @@ use super::description::VariableType;
 use super::error::FmuError;
 use super::instance::FmuInstance;
 use super::state::StateSlot;
+use super::transform::{Linear, Transform};
 use ttb_coupling::{Failure, Subsystem};
 
 /// An instance with the value references of its coupled variables, in the order of the connections. Everything the
@@ -14,6 +15,7 @@ pub struct FmuSubsystem {
     orders: Vec<i32>,
     outputs: Vec<u32>,
     slot: StateSlot,
+    transform: Option<Transform>,
     /// Time the outputs belong to in s, for messages.
     time: f64,
 }
@@ -39,7 +41,15 @@ impl FmuSubsystem {
             return Err(instance.impossible(problems.join("; ")));
         }
         let slot = instance.new_slot();
-        Ok(Self { orders: vec![1; inputs.len()], inputs, outputs, slot, instance, time: 0.0 })
+        Ok(Self { orders: vec![1; inputs.len()], inputs, outputs, slot, instance, transform: None, time: 0.0 })
+    }
+
+    /// Lets inputs and outputs pass through lines, in the order of the connections.
+    #[must_use]
+    pub fn transformed(mut self, inputs: &[Linear], outputs: &[Linear]) -> Self {
+        debug_assert_eq!((inputs.len(), outputs.len()), (self.inputs.len(), self.outputs.len()));
+        self.transform = Transform::new(inputs, outputs);
+        self
     }
 
     /// The instance, e.g. for its tally, its messages, or to set parameters.
@@ -77,9 +87,13 @@ impl FmuSubsystem {
 
 impl Subsystem for FmuSubsystem {
     fn set_inputs(&mut self, values: &[f64], rates: Option<&[f64]>) -> Result<(), Failure> {
+        let values = self.transform.as_mut().map_or(values, |transform| transform.values(values));
         let set = self.instance.set_real(&self.inputs, values);
         let set = match rates {
-            Some(rates) => set.and_then(|()| self.instance.set_input_derivatives(&self.inputs, &self.orders, rates)),
+            Some(rates) => set.and_then(|()| {
+                let rates = self.transform.as_mut().map_or(rates, |transform| transform.rates(rates));
+                self.instance.set_input_derivatives(&self.inputs, &self.orders, rates)
+            }),
             None => set,
         };
         set.map_err(|e| self.failure(&e))
@@ -89,7 +103,10 @@ impl Subsystem for FmuSubsystem {
     fn get_outputs(&mut self, outputs: &mut [f64]) -> Result<(), Failure> {
         self.instance.get_real(&self.outputs, outputs).map_err(|e| self.failure(&e))?;
         match outputs.iter().position(|x| !x.is_finite()) {
-            None => Ok(()),
+            None => {
+                self.transform.iter().for_each(|transform| transform.outputs(outputs));
+                Ok(())
+            }
             Some(index) => Err(self.not_finite(index, outputs[index])),
         }
     }
@@ -124,7 +141,10 @@ impl Subsystem for FmuSubsystem {
     }
 
     fn derivative(&mut self, seed: &[f64], change: &mut [f64]) -> Result<(), Failure> {
+        let seed = self.transform.as_mut().map_or(seed, |transform| transform.rates(seed));
         let derived = self.instance.directional_derivative(&self.outputs, &self.inputs, seed, change);
-        derived.map_err(|e| self.failure(&e))
+        derived.map_err(|e| self.failure(&e))?;
+        self.transform.iter().for_each(|transform| transform.changes(change));
+        Ok(())
     }
 }

@@ -30,6 +30,10 @@ void *fmi2Instantiate(const char *name, int type, const char *guid, const char *
     instance_t *s = callbacks->allocate(1, sizeof *s);
     s->callbacks = callbacks; /* kept, not copied, as many do */
     strncpy(s->name, name, sizeof s->name - 1);
+    if (is(s, "odd")) {
+        callbacks->logger(callbacks->environment, name, 0, "info", "loaded to 50 % of %n");
+        callbacks->logger(callbacks->environment, name, 0, "info", "cut at %");
+    }
     if (logging) callbacks->logger(callbacks->environment, name, 0, "info", "%d %s %.1f%%", 42, "reals", 99.5);
     fmi2_live++;
     return s;

@@ -160,7 +160,7 @@ pub enum ModelChoice {
 #[schemars(deny_unknown_fields)]
 #[serde(default)]
 pub struct Reduction {
-    /// Highest frequency of the modes, Hz; absent: raised until `error` is met.
+    /// Highest frequency of the modes, Hz; absent: raised from 30 Hz until `error` is met or 1600 vectors are reached.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub highest_frequency: Option<f64>,
@@ -172,7 +172,7 @@ pub struct Reduction {
 
 impl Default for Reduction {
     fn default() -> Self {
-        Self { highest_frequency: None, error: 5e-3 }
+        Self { highest_frequency: None, error: 0.05 }
     }
 }
 

@@ -1,0 +1,158 @@
+//! What engineers check first of a bridge: size, mass, equilibrium, what is loose, lowest natural frequencies.
+
+use std::fmt;
+use std::path::Path;
+
+use ttb_coupling::ModelError;
+use ttb_dynamics::factor::{Factor, FactorError, Layout};
+use ttb_dynamics::modes::lowest;
+use ttb_dynamics::sparse::{Assembly, Pencil};
+use ttb_import::{Files, Inspection};
+use ttb_scenario::spec::{BridgeSpec, StructureSpec};
+use ttb_scenario::types::Model;
+
+use crate::space::{self, SelfCheck, Statics};
+use crate::{imported, plane};
+
+/// Natural frequencies that are sought.
+const FREQUENCIES: usize = 8;
+
+/// What was found.
+pub struct Report {
+    /// Degrees of freedom.
+    pub ndof: usize,
+    /// Entries of K and M, lower triangle.
+    pub entries: usize,
+    /// A finite-element model's account of itself.
+    pub model: Option<SelfCheck>,
+    /// What imported files hold.
+    pub files: Option<Inspection>,
+    /// Mass, kg.
+    pub mass: f64,
+    /// Lowest natural frequencies, Hz; or why there are none.
+    pub frequencies: Result<Vec<f64>, String>,
+}
+
+impl Report {
+    /// Nothing is loose, forces balance, K is positive definite.
+    #[must_use]
+    pub fn is_sound(&self) -> bool {
+        self.frequencies.is_ok() && self.model.as_ref().is_none_or(SelfCheck::is_sound)
+    }
+}
+
+/// Looks at the bridge of a scenario.
+///
+/// # Errors
+/// It cannot be assembled at all.
+pub fn inspect(spec: &BridgeSpec) -> Result<Report, ModelError> {
+    match &spec.structure {
+        StructureSpec::FiniteElements(model) => of_model(model, &spec.supports),
+        StructureSpec::Matrices { files, folder, .. } => of_files(files, folder, &spec.supports),
+        StructureSpec::Beams { .. } | StructureSpec::Frame(_) => {
+            let assembled = plane::assemble(spec)?;
+            let (pencil, factor) = factorised(assembled.equations, Layout::default())?;
+            let frequencies = frequencies(&pencil, factor, &assembled.names);
+            let mass = assembled.mass;
+            Ok(Report { ndof: pencil.ndof(), entries: pencil.entries(), model: None, files: None, mass, frequencies })
+        }
+        StructureSpec::Stored => Err(ModelError("bridge: a stored bridge was looked at when it was made".into())),
+    }
+}
+
+/// Looks at a finite-element model; `supports` (m from its begin) may be empty.
+///
+/// # Errors
+/// It cannot be assembled at all.
+pub fn of_model(model: &Model, supports: &[f64]) -> Result<Report, ModelError> {
+    let assembled = match space::assemble(model, supports, &[]) {
+        Ok(assembled) => assembled,
+        // What the model says of itself tells more than the first thing that was in the way.
+        Err(error) => {
+            let check = space::self_check(model, Statics::Unknown)?;
+            let (ndof, mass) = (check.freedoms, check.mass);
+            return Ok(Report { ndof, entries: 0, model: Some(check), files: None, mass, frequencies: Err(error.0) });
+        }
+    };
+    let layout = Layout { node_of: assembled.node_of, place: assembled.nodes, ..Layout::default() };
+    let (pencil, factor) = factorised(assembled.equations, layout)?;
+    let check = match &factor {
+        Ok(factor) => {
+            let mut scratch = vec![0.0; pencil.ndof()];
+            space::self_check(model, Statics::Solved(&mut |x| factor.solve_in_place(x, &mut scratch)))?
+        }
+        Err(FactorError::NotPositive { dof }) => space::self_check(model, Statics::Mechanism(*dof))?,
+        Err(_) => space::self_check(model, Statics::Unknown)?,
+    };
+    let frequencies = frequencies(&pencil, factor, &assembled.names);
+    let (ndof, entries, mass) = (pencil.ndof(), pencil.entries(), assembled.mass);
+    Ok(Report { ndof, entries, model: Some(check), files: None, mass, frequencies })
+}
+
+fn of_files(files: &Files, folder: &Path, stations: &[f64]) -> Result<Report, ModelError> {
+    let imported = files.read(folder).map_err(|problems| ModelError(problems.to_string()))?;
+    let inspection = imported.inspect();
+    let assembled = imported::from(imported, stations)?;
+    let layout = Layout { node_of: assembled.node_of, place: assembled.nodes, ..Layout::default() };
+    let (pencil, factor) = factorised(assembled.equations, layout)?;
+    let frequencies = frequencies(&pencil, factor, &assembled.names);
+    let (ndof, entries, mass) = (pencil.ndof(), pencil.entries(), assembled.mass);
+    Ok(Report { ndof, entries, model: None, files: Some(inspection), mass, frequencies })
+}
+
+fn factorised(equations: Assembly, layout: Layout) -> Result<(Pencil, Result<Factor, FactorError>), ModelError> {
+    let pencil = equations.finish_with(&layout).map_err(|e| ModelError(format!("bridge: {e}")))?;
+    let factor = pencil.factor(1.0, 0.0, 0.0);
+    Ok((pencil, factor))
+}
+
+fn frequencies(
+    pencil: &Pencil,
+    factor: Result<Factor, FactorError>,
+    names: &dyn Fn(usize) -> String,
+) -> Result<Vec<f64>, String> {
+    let factor = factor.map_err(|error| match error {
+        FactorError::NotPositive { dof } => format!("K is not positive definite: nothing holds the {}", names(dof)),
+        other => other.to_string(),
+    })?;
+    let found = lowest(pencil, &factor, FREQUENCIES.min(pencil.ndof()));
+    found.map(|modes| modes.frequencies().collect()).map_err(|error| error.to_string())
+}
+
+impl fmt::Display for Report {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        writeln!(f, "degrees of freedom   {}", self.ndof)?;
+        writeln!(f, "entries, lower half  {}", self.entries)?;
+        writeln!(f, "mass                 {:.3} t", self.mass * 1e-3)?;
+        if let Some(check) = &self.model {
+            writeln!(f, "{check}")?;
+        }
+        if let Some(files) = &self.files {
+            facts(files, f)?;
+        }
+        match &self.frequencies {
+            Ok(hertz) => {
+                let text: Vec<String> = hertz.iter().map(|hz| format!("{hz:.4}")).collect();
+                write!(f, "lowest frequencies   {} Hz", text.join(", "))
+            }
+            Err(why) => write!(f, "lowest frequencies   none: {why}"),
+        }
+    }
+}
+
+fn facts(files: &Inspection, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+    writeln!(f, "diagonal of K        {:.3e} … {:.3e}", files.stiffness.1, files.stiffness.0)?;
+    writeln!(f, "diagonal of M        {:.3e} … {:.3e}", files.masses.1, files.masses.0)?;
+    writeln!(f, "rows without mass    {}", files.massless.len())?;
+    for motion in &files.motions {
+        let (name, unit) = match motion.direction {
+            direction @ 0..3 => (["along x", "along y", "along z"][direction], "kg"),
+            direction => (["about x", "about y", "about z"][(direction - 3).min(2)], "kg m²"),
+        };
+        writeln!(f, "mass {name}         {:.6e} {unit}, held in {} rows", motion.inertia, motion.held)?;
+    }
+    for (x, sum) in &files.odd_supports {
+        writeln!(f, "support at {x} m: its weights add up to {sum}, unlike the others'")?;
+    }
+    Ok(())
+}

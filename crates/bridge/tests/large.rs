@@ -1,0 +1,211 @@
+//! Large bridges: the solve split over a step, stored models and reductions, against equations solved plainly.
+
+mod common;
+
+use std::sync::Arc;
+
+use common::{Train, drive, outputs, stepping};
+use ttb_bridge::Bridge;
+use ttb_bridge::full::Full;
+use ttb_bridge::lazy::answer;
+use ttb_bridge::lockstep::Lockstep;
+use ttb_bridge::rows::Rows;
+use ttb_bridge::space;
+use ttb_bridge::system::{Base, Law, System, Work};
+use ttb_coupling::{Instance, Model};
+use ttb_dynamics::factor::Layout;
+use ttb_dynamics::newmark::{Motion, Newmark};
+use ttb_dynamics::sparse::Pencil;
+use ttb_dynamics::sweeps::LANES;
+use ttb_generate::simple_span;
+use ttb_scenario::spec::{BridgeSpec, StructureSpec};
+use ttb_scenario::types::{Damping, Model as Elements, RayleighAt, Reduction, Springs};
+
+const LENGTH: f64 = 24.0;
+
+/// A girder of shells, with dashpots under its ends if wanted.
+fn girder(dashpots: bool) -> Elements {
+    let mut model = simple_span(LENGTH, 10.8, 3.5, 4500).unwrap();
+    if dashpots {
+        let nodes: Vec<Vec<u32>> = model.nodes.iter().step_by(97).map(|node| vec![node.0]).collect();
+        model.springs.push(Springs { elements: nodes, stiffness: [1e6; 6], damping: [2e5, 1e5, 3e5, 0.0, 0.0, 0.0] });
+    }
+    model
+}
+
+fn stations() -> Vec<f64> {
+    (1..40).map(|i| 0.6 * f64::from(i)).collect()
+}
+
+fn spec(model: Elements) -> BridgeSpec {
+    let spec = common::bridge(StructureSpec::FiniteElements(Box::new(model)), LENGTH, 1, 1e-3);
+    let damping = Damping::Rayleigh { ratio: 0.02, at: RayleighAt::Hz([4.0, 40.0]) };
+    BridgeSpec { supports: stations(), points: vec![common::point("mid", 0.5 * LENGTH)], damping, ..spec }
+}
+
+fn assembled(model: &Elements) -> (Arc<Pencil>, Vec<Vec<(u32, f64)>>) {
+    let assembled = space::assemble(model, &stations(), &[common::point("mid", 0.5 * LENGTH)]).unwrap();
+    let rows = [assembled.supports, assembled.monitors].concat();
+    let layout = Layout { node_of: assembled.node_of, place: assembled.nodes, ..Layout::default() };
+    (Arc::new(assembled.equations.finish_with(&layout).unwrap()), rows)
+}
+
+const LAW: Law = Law { stiffness: 1.2, mass: 0.9, alpha: 0.4, beta: 3e-4, rates: Vec::new() };
+
+fn law() -> Law {
+    Law { rates: Vec::new(), ..LAW }
+}
+
+/// Newmark's method as the textbook has it: products with K, M and C, no exchange of terms.
+fn textbook(pencil: &Pencil, newmark: &Newmark, motion: &Motion, load: &[f64], next: &mut Motion) {
+    let [a0, a1, ..] = newmark.a;
+    let Law { stiffness: k, mass: m, alpha, beta, .. } = law();
+    let n = load.len();
+    let inertia: Vec<f64> = (0..n).map(|i| newmark.inertia(motion.u[i], motion.v[i], motion.a[i])).collect();
+    let damping: Vec<f64> = (0..n).map(|i| newmark.damping(motion.u[i], motion.v[i], motion.a[i])).collect();
+    let product = |of: fn(&Pencil, &[f64], &mut [f64]), x: &[f64]| {
+        let mut y = vec![0.0; n];
+        of(pencil, x, &mut y);
+        y
+    };
+    let (mi, md) = (product(Pencil::add_mass, &inertia), product(Pencil::add_mass, &damping));
+    let (kd, cd) = (product(Pencil::add_stiffness, &damping), product(Pencil::add_damping, &damping));
+    next.u = (0..n).map(|i| load[i] + m * (mi[i] + alpha * md[i]) + beta * k * kd[i] + cd[i]).collect();
+    let factor = pencil.factor(k * (1.0 + a1 * beta), m * (a0 + a1 * alpha), a1).unwrap();
+    factor.solve_in_place(&mut next.u, &mut vec![0.0; n]);
+    (next.v, next.a) = (vec![0.0; n], vec![0.0; n]);
+    newmark.finish_all(motion, next);
+}
+
+fn difference(a: &[f64], b: &[f64]) -> f64 {
+    let largest = b.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+    a.iter().zip(b).fold(0.0_f64, |m, (a, b)| m.max((a - b).abs())) / largest
+}
+
+#[test]
+fn the_split_solve_is_newmarks_method_with_dashpots_too() {
+    for dashpots in [false, true] {
+        let (pencil, rows) = assembled(&girder(dashpots));
+        assert_eq!(pencil.has_dashpots(), dashpots);
+        let (newmark, n) = (Newmark::new(0.55, 0.28, 1e-3), pencil.ndof());
+        let (sparse, supports) = (Arc::new(Rows::new(&rows)), stations().len());
+        let full = Arc::new(Full::new(Arc::clone(&pencil), None, Default::default()));
+        let step = full.prepare(&law(), newmark, &sparse, supports).unwrap();
+        let compliance = step.compliance().expect("a large system splits its solve");
+        let (mut base, mut work, mut next) = (Base::default(), Work::default(), Motion::rest(n));
+        base.motion = Motion::rest(n);
+        let (mut plain, mut plain_next, mut seen) = (Motion::rest(n), Motion::rest(n), Vec::new());
+        for k in 0..6 {
+            let forces: Vec<f64> = (0..supports).map(|i| 1e4 * f64::from((i as i32 * 7 + k * 3) % 5)).collect();
+            step.begin(&mut base, &mut work);
+            answer(compliance, &base, &forces, &mut seen);
+            step.solve(&base, &forces, &mut next.u, &mut work);
+            step.newmark().finish_all(&base.motion, &mut next);
+            let mut load = vec![0.0; n];
+            sparse.add_transposed(&forces, &mut load);
+            textbook(&pencil, &newmark, &plain, &load, &mut plain_next);
+            std::mem::swap(&mut plain, &mut plain_next);
+            assert!(difference(&next.u, &plain.u) < 1e-9, "{}", difference(&next.u, &plain.u));
+            let direct: Vec<f64> = (0..rows.len()).map(|i| sparse.dot(i, &next.u)).collect();
+            assert!(difference(&seen, &direct) < 1e-10);
+            std::mem::swap(&mut base.motion, &mut next);
+        }
+    }
+}
+
+/// Twelve steps, each repeated from the saved state and from its bytes.
+fn drive_about(mut instance: Instance<Bridge>) -> Vec<Vec<f64>> {
+    let n = stations().len();
+    let forces = |k: usize| (0..n).map(|i| 2e4 * ((i * 3 + k) % 7) as f64).collect::<Vec<f64>>();
+    let mut results = Vec::new();
+    for k in 0..12 {
+        let before = instance.save();
+        let step = |instance: &mut Instance<Bridge>| {
+            drive(instance, &forces(k), Some(&forces(k + 3)));
+            instance.step(k as f64 * 1e-3, 1e-3).unwrap();
+            outputs(instance)
+        };
+        let first = step(&mut instance);
+        instance.restore(&before).unwrap();
+        assert_eq!(step(&mut instance), first, "step {k}");
+        let bytes = instance.to_bytes(&before);
+        let snapshot = instance.from_bytes(&bytes).unwrap();
+        instance.restore(&snapshot).unwrap();
+        assert_eq!(step(&mut instance), first, "step {k}, from bytes");
+        results.push(first);
+    }
+    results
+}
+
+#[test]
+fn a_step_repeats_bit_for_bit_also_from_bytes_and_in_a_packed_bridge() {
+    for reduction in [None, Some(Reduction { highest_frequency: Some(20.0), ..Reduction::default() })] {
+        let spec = BridgeSpec { reduction, ..spec(girder(false)) };
+        let here = drive_about(stepping(&spec));
+        let folder = tempfile::tempdir().unwrap();
+        for (name, content) in Bridge::new(spec.clone()).unwrap().resources(&spec).unwrap() {
+            std::fs::write(folder.path().join(name), content).unwrap();
+        }
+        let mut packed = Instance::new(Bridge::load(folder.path()).unwrap());
+        packed.enter_initialization(0.0).unwrap();
+        packed.exit_initialization().unwrap();
+        assert_eq!(drive_about(packed), here);
+        // A file cut short is refused, not believed.
+        let file = folder.path().join("bridge.bin");
+        let bytes = std::fs::read(&file).unwrap();
+        std::fs::write(&file, &bytes[..bytes.len() / 2]).unwrap();
+        let error = Bridge::load(folder.path()).err().expect("a damaged file").to_string();
+        assert!(error.contains("bridge.bin") && error.contains("damaged"), "{error}");
+    }
+}
+
+#[test]
+fn a_reduced_bridge_keeps_what_it_states() {
+    let full = spec(girder(false));
+    let reduced = BridgeSpec { reduction: Some(Reduction { error: 0.02, ..Reduction::default() }), ..full.clone() };
+    let bridge = Bridge::new(reduced.clone()).unwrap();
+    let accuracy = bridge.accuracy().unwrap().clone();
+    assert!(accuracy.acceleration <= 0.02 && bridge.unknowns() < bridge.ndof() / 5, "{accuracy:?}");
+    let train = Train { axles: (0..4).map(|i| (f64::from(i) * 2.5, 1.5e5)).collect(), speed: 70.0 };
+    let run = |spec: &BridgeSpec| {
+        let (mut displacement, mut acceleration) = (Vec::new(), Vec::new());
+        train.run(spec, 0.3, |_, instance| {
+            displacement.push(common::get(instance, "point[mid].displacement"));
+            acceleration.push(common::get(instance, "point[mid].acceleration"));
+        });
+        [displacement, acceleration]
+    };
+    let (truth, found) = (run(&full), run(&reduced));
+    let errors = [0, 1].map(|i| difference(&found[i], &truth[i]));
+    println!("stated {accuracy:?}, found {errors:?}");
+    // The probe is one load, this train another: the same order, not the same figure.
+    assert!(errors[0] < 1e-4 && errors[1] < 3.0 * accuracy.acceleration, "{errors:?}");
+}
+
+#[test]
+fn runs_in_lockstep_are_the_runs_alone() {
+    let (pencil, rows) = assembled(&girder(false));
+    let (newmark, n, supports) = (Newmark::new(0.5, 0.25, 1e-3), pencil.ndof(), stations().len());
+    let sparse = Arc::new(Rows::new(&rows));
+    let mut together = Lockstep::new(&pencil, &law(), newmark, &sparse, supports).unwrap();
+    let full = Arc::new(Full::new(Arc::clone(&pencil), None, Default::default()));
+    let step = full.prepare(&law(), newmark, &sparse, supports).unwrap();
+    let mut alone: Vec<Base> = (0..LANES).map(|_| Base { motion: Motion::rest(n), ..Base::default() }).collect();
+    let (mut work, mut next, mut seen, mut trial) =
+        (Work::default(), Motion::rest(n), Vec::new(), vec![0.0; rows.len()]);
+    for k in 0..5 {
+        let of_run = |run: usize| (0..supports).map(|i| 1e4 * ((i * (run + 1) + k) % 9) as f64).collect::<Vec<f64>>();
+        let forces: Vec<Vec<f64>> = (0..LANES).map(of_run).collect();
+        together.begin();
+        for (run, base) in alone.iter_mut().enumerate() {
+            step.begin(base, &mut work);
+            answer(step.compliance().unwrap(), base, &forces[run], &mut seen);
+            together.trial(run, &forces[run], &mut trial);
+            assert!(difference(&trial, &seen) < 1e-10, "run {run}, step {k}: {}", difference(&trial, &seen));
+            step.solve(base, &forces[run], &mut next.u, &mut work);
+            step.newmark().finish_all(&base.motion, &mut next);
+            std::mem::swap(&mut base.motion, &mut next);
+        }
+        together.finish(std::array::from_fn(|run| forces[run].as_slice()));
+    }
+}

@@ -1,0 +1,56 @@
+//! Bare calls into an FMU under suspicion, for `ttb check`.
+//!
+//! [`crate::import`] protects a run from an FMU: it turns answers into errors, keeps order, cleans up. A checker wants
+//! the opposite: any GUID and any resource URI, the status as it came, freeing at the wrong moment. So a [`Probe`]
+//! adds nothing to the calls but an announcement before each, from which the checker knows what was going on when a
+//! process died. Whatever is called here may crash or never return: call it in a process that may be lost.
+
+mod instance;
+mod log;
+mod symbols;
+
+pub use instance::{Birth, Probed, State};
+pub use log::LogEntry;
+pub use symbols::{Symbols, symbols};
+
+use crate::import::{LibraryError, ModelDescription};
+use std::path::Path;
+
+/// A loaded FMU.
+pub struct Probe {
+    functions: crate::import::Functions,
+    announce: Box<dyn Fn(&str)>,
+}
+
+impl Probe {
+    /// Loads the library of an FMU unpacked in `folder`; `announce` hears of every call before it is made.
+    ///
+    /// # Errors
+    /// No library, or not one of FMI 2.0.
+    pub fn open(
+        folder: &Path,
+        description: &ModelDescription,
+        announce: impl Fn(&str) + 'static,
+    ) -> Result<Self, LibraryError> {
+        announce("loading the library");
+        let functions = crate::import::Functions::load(folder, &description.co_simulation.model_identifier)?;
+        Ok(Self { functions, announce: Box::new(announce) })
+    }
+
+    /// Whether there are functions to get, set and free states.
+    pub fn has_states(&self) -> bool {
+        let f = &self.functions;
+        f.get_state.is_some() && f.set_state.is_some() && f.free_state.is_some()
+    }
+
+    /// Whether there are functions to make states bytes and back.
+    pub fn has_serialization(&self) -> bool {
+        let f = &self.functions;
+        f.serialized_size.is_some() && f.serialize_state.is_some() && f.deserialize_state.is_some()
+    }
+
+    /// Whether there are directional derivatives.
+    pub fn has_derivatives(&self) -> bool {
+        self.functions.directional_derivative.is_some()
+    }
+}

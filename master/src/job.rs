@@ -1,0 +1,45 @@
+//! What a run needs to know beside its two FMUs, whether it comes from a scenario or from a system structure.
+
+use ttb_scenario::Checked;
+use ttb_scenario::spec::Profile;
+use ttb_scenario::types::Output;
+
+/// A run to be done.
+pub struct Job {
+    /// One line for people.
+    pub title: String,
+    /// Where it comes from.
+    pub origin: Origin,
+    /// Seed of a random irregularity, where it is known.
+    pub irregularity_seed: Option<u64>,
+    /// Step, s.
+    pub step: f64,
+    /// End, s.
+    pub end: f64,
+    /// What is recorded.
+    pub output: Output,
+}
+
+/// Fingerprint (SHA-256) of a run's origin.
+pub enum Origin {
+    /// Of what decides a scenario's result.
+    Scenario(String),
+    /// Of a system structure's file.
+    System(String),
+}
+
+impl From<&Checked> for Job {
+    fn from(checked: &Checked) -> Self {
+        Self {
+            title: checked.scenario.title.clone(),
+            origin: Origin::Scenario(checked.hash.clone()),
+            irregularity_seed: match checked.train_track.irregularity {
+                Profile::Spectrum { seed, .. } => Some(seed),
+                _ => None,
+            },
+            step: checked.train_track.step,
+            end: checked.train_track.end,
+            output: checked.scenario.output,
+        }
+    }
+}

@@ -1,0 +1,139 @@
+//! `ttb export-ssp`: a scenario's two FMUs, how they are connected and how they are iterated, as one archive.
+
+use std::path::{Path, PathBuf};
+
+use ttb_fmi2::import::{ModelDescription, VariableType, read_description, unpack};
+use ttb_scenario::Checked;
+use ttb_ssp::{
+    BaseUnit, Component, Connection, Connector, Content, EXTRA, Experiment, Kind, RESOURCES, Structure, System, Type,
+    Unit, pack,
+};
+
+use super::annotation::{Settings, write};
+use crate::build;
+use crate::cli::ExportSsp;
+use crate::error::Error;
+
+const NAME: &str = "TrainTrackBridge";
+/// Names of the components, and their places in a drawing.
+const COMPONENTS: [(&str, [f64; 4]); 2] =
+    [("TrainTrack", [0.0, 80.0, 160.0, 140.0]), ("Bridge", [0.0, 0.0, 160.0, 60.0])];
+
+/// The command; returns the archive's path.
+pub fn export(arguments: &ExportSsp) -> Result<PathBuf, Error> {
+    let checked = build::scenario(arguments.scenario.as_deref())?;
+    let text = match &arguments.scenario {
+        Some(path) => std::fs::read_to_string(path).map_err(Error::io(path))?,
+        None => ttb_scenario::default_scenario_text().to_string(),
+    };
+    let folder = tempfile::tempdir().map_err(Error::io(Path::new("temporary folder")))?;
+    let built = build::build(&checked, folder.path())?;
+    let descriptions = [describe(&built.train_track)?, describe(&built.bridge)?];
+    let structure = structure(&checked, &descriptions);
+    let path = arguments.output.clone().unwrap_or_else(|| {
+        let stem = arguments.scenario.as_deref().and_then(Path::file_stem).unwrap_or("default".as_ref());
+        Path::new(stem).with_extension("ssp")
+    });
+    if let Some(parent) = path.parent().filter(|parent| !parent.as_os_str().is_empty()) {
+        std::fs::create_dir_all(parent).map_err(Error::io(parent))?;
+    }
+    let sources = COMPONENTS.map(|(name, _)| source(name));
+    let entries = [
+        (sources[0].as_str(), Content::File(&built.train_track)),
+        (sources[1].as_str(), Content::File(&built.bridge)),
+        (&format!("{EXTRA}/org.ttb/scenario.json"), Content::Text(&text)),
+    ];
+    pack(&structure, &entries, &path).map_err(|e| Error::Io { path: e.path, source: e.source })?;
+    Ok(path)
+}
+
+/// Path of a component's FMU inside the archive.
+fn source(name: &str) -> String {
+    format!("{RESOURCES}/{name}.fmu")
+}
+
+fn describe(fmu: &Path) -> Result<ModelDescription, Error> {
+    let failed = |why: String| Error::Pack(format!("{}: {why}", fmu.display()));
+    let folder = unpack(fmu).map_err(|e| failed(e.to_string()))?;
+    let xml = std::fs::read(folder.path().join("modelDescription.xml")).map_err(|e| failed(e.to_string()))?;
+    read_description(&xml).map_err(|e| failed(e.to_string()))
+}
+
+fn structure(checked: &Checked, [train_track, bridge]: &[ModelDescription; 2]) -> Structure {
+    let title = Some(checked.scenario.title.clone()).filter(|title| !title.is_empty());
+    let settings = Settings {
+        step: Some(checked.train_track.step),
+        force_scale: checked.axle_load,
+        train_track: Some(COMPONENTS[0].0.into()),
+        output: checked.scenario.output,
+        coupling: checked.scenario.coupling,
+        place: String::new(),
+    };
+    let [first, second] = COMPONENTS.map(|(name, _)| name);
+    let forces = connections((first, train_track), (second, bridge));
+    let motions = connections((second, bridge), (first, train_track));
+    let mut units: Vec<Unit> = Vec::new();
+    for (name, unit) in train_track.units.iter().chain(&bridge.units) {
+        if units.iter().all(|known| known.name != *name) {
+            let base = BaseUnit { powers: unit.powers, factor: unit.factor, offset: unit.offset };
+            units.push(Unit { name: name.clone(), base });
+        }
+    }
+    units.sort_by(|a, b| a.name.cmp(&b.name));
+    Structure {
+        name: NAME.into(),
+        description: title.clone(),
+        tool: Some(concat!("ttb ", env!("CARGO_PKG_VERSION")).into()),
+        system: System {
+            name: NAME.into(),
+            description: title,
+            components: COMPONENTS
+                .iter()
+                .zip([train_track, bridge])
+                .map(|((name, geometry), description)| component(name, *geometry, description))
+                .collect(),
+            connections: forces.chain(motions).collect(),
+        },
+        units,
+        experiment: Experiment { start: Some(0.0), stop: Some(checked.train_track.end), annotations: write(&settings) },
+    }
+}
+
+/// Inputs and outputs; a parameter keeps the value it has inside.
+fn component(name: &str, geometry: [f64; 4], description: &ModelDescription) -> Component {
+    let connectors = description.variables.iter().filter_map(|v| {
+        let kind = match v.causality.as_str() {
+            "input" => Kind::Input,
+            "output" => Kind::Output,
+            _ => return None,
+        };
+        let kind_of_value = match v.kind {
+            VariableType::Real => Type::Real(v.unit.clone()),
+            other => Type::Other(format!("{other:?}")),
+        };
+        Some(Connector { name: v.name.clone(), kind, kind_of_value: Some(kind_of_value), place: String::new() })
+    });
+    Component {
+        name: name.into(),
+        source: source(name),
+        connectors: connectors.collect(),
+        geometry: Some(geometry),
+        ..Component::default()
+    }
+}
+
+/// Outputs of one to the inputs of equal name of the other.
+fn connections<'a>(
+    (from, outputs): (&'a str, &'a ModelDescription),
+    (to, inputs): (&'a str, &'a ModelDescription),
+) -> impl Iterator<Item = Connection> + 'a {
+    let fits = |name: &str| outputs.variable(name).is_some_and(|v| v.causality == "output");
+    inputs.with_causality("input").filter(move |v| fits(&v.name)).map(move |v| Connection {
+        start: (Some(from.into()), v.name.clone()),
+        end: (Some(to.into()), v.name.clone()),
+        factor: 1.0,
+        offset: 0.0,
+        suppress_unit_conversion: false,
+        place: String::new(),
+    })
+}

@@ -1,0 +1,178 @@
+//! `ttb run SYSTEM.ssp`: from an archive to two FMUs and how they are connected, or to everything that is wrong with it.
+
+use std::io::Read;
+use std::path::Path;
+
+use sha2::{Digest, Sha256};
+use ttb_fmi2::import::{Fmu, UnpackError, unpack};
+use ttb_fmi2::isolate::Isolation;
+use ttb_ssp::{Report, STRUCTURE, Structure};
+
+use super::annotation::{self, Settings};
+use super::roles;
+use super::wiring::{Link, links};
+use crate::connect::{Connected, Wire, Wiring, couple, instantiate};
+use crate::error::Error;
+use crate::isolate::{self, Isolated};
+use crate::job::{Job, Origin};
+
+/// A system structure that can be run.
+pub struct Opened {
+    /// What a run needs to know.
+    pub job: Job,
+    /// What is allowed, but rarely meant.
+    pub warnings: Vec<String>,
+    settings: Settings,
+    /// Train–track, bridge: name of the component and FMU.
+    fmus: [(String, Fmu); 2],
+    wiring: Wiring,
+}
+
+/// Whether a file is meant to be a system structure: by its name.
+pub fn is_system(path: &Path) -> bool {
+    path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("ssp"))
+}
+
+impl Opened {
+    /// Reads and checks an archive.
+    pub fn open(path: &Path, isolated: &Isolated) -> Result<Self, Error> {
+        let refused = |why: String| Error::Input(format!("{}: {why}", path.display()));
+        let folder = unpack(path).map_err(|error| match error {
+            UnpackError::Archive(error) => refused(format!("is no readable system structure (zip archive): {error}")),
+            other => refused(other.to_string()),
+        })?;
+        let document = folder.path().join(STRUCTURE);
+        let bytes = std::fs::read(document).map_err(|_| refused(format!("has no {STRUCTURE} at its top")))?;
+        let file = format!("{}/{STRUCTURE}", path.display());
+        let structure = ttb_ssp::read(&bytes, &file).map_err(|report| Error::Input(report.to_string()))?;
+        let mut report = Report::new(file);
+        let settings = annotation::read(&structure.experiment.annotations, &mut report);
+        // Which side an FMU is shows later: until then none is loaded here if any is to be kept apart.
+        let isolation = isolated.train_track.as_ref().or(isolated.bridge.as_ref());
+        let fmus = open_fmus(&structure, folder.path(), isolation, &mut report)?;
+        let Some(mut fmus) = fmus else { return Err(Error::Input(report.to_string())) };
+        let components = &structure.system.components;
+        let sides = [(&components[0], fmus[0].description()), (&components[1], fmus[1].description())];
+        let links = links(&structure, &sides, &mut report);
+        let place = settings.place.as_str();
+        let train_track = roles::train_track(settings.train_track.as_deref(), &sides, &links, place, &mut report);
+        let mut warnings = Vec::new();
+        if let Some(train_track) = train_track {
+            warnings = roles::complete(train_track, &sides, &links, &mut report);
+        }
+        let train_track = train_track.unwrap_or(0);
+        let (step, end) = times(&structure, &settings, &[&fmus[train_track], &fmus[1 - train_track]], &mut report);
+        if !report.is_empty() {
+            return Err(Error::Input(report.to_string()));
+        }
+        let wiring =
+            Wiring { forces: wires(&links, train_track, &fmus), motions: wires(&links, 1 - train_track, &fmus) };
+        let title = structure.system.description.or(structure.description).unwrap_or(structure.name);
+        let job = Job {
+            title,
+            origin: Origin::System(fingerprint(path)?),
+            irregularity_seed: None,
+            step,
+            end,
+            output: settings.output,
+        };
+        for (i, wanted) in [(train_track, &isolated.train_track), (1 - train_track, &isolated.bridge)] {
+            if isolation.is_some() && wanted.is_none() {
+                fmus[i] = Fmu::open(&folder.path().join(&components[i].source))?;
+            }
+        }
+        let [first, second] = fmus;
+        let mut named = [(components[0].name.clone(), first), (components[1].name.clone(), second)];
+        if train_track == 1 {
+            named.reverse();
+        }
+        Ok(Self { job, warnings, settings, fmus: named, wiring })
+    }
+
+    /// Both FMUs in initialization mode, connected.
+    pub fn connect(&self) -> Result<Connected, Error> {
+        let [train_track, bridge] = [0, 1].map(|i| instantiate(&self.fmus[i].1, &self.fmus[i].0, self.job.end));
+        let Settings { coupling, force_scale, .. } = &self.settings;
+        couple(train_track?, bridge?, &self.wiring, coupling, *force_scale, self.warnings.clone())
+    }
+}
+
+/// The two FMUs in the order of the components; nothing if there are not two, which is then reported.
+fn open_fmus(
+    structure: &Structure,
+    folder: &Path,
+    isolation: Option<&Isolation>,
+    report: &mut Report,
+) -> Result<Option<[Fmu; 2]>, Error> {
+    let components = &structure.system.components;
+    let paths: Vec<_> = components.iter().map(|component| folder.join(&component.source)).collect();
+    let mut missing = false;
+    for (component, path) in components.iter().zip(&paths) {
+        if !path.is_file() {
+            missing = true;
+            report.problem(&component.place, format!("the archive has no file {}", component.source));
+        }
+    }
+    let [first, second] = paths.as_slice() else {
+        let count = components.len();
+        report.problem(
+            "/SystemStructureDescription/System/Elements",
+            format!("{count} components; there must be two, a train–track side and a bridge"),
+        );
+        return Ok(None);
+    };
+    if missing {
+        return Ok(None);
+    }
+    Ok(Some([isolate::open(first, isolation)?, isolate::open(second, isolation)?]))
+}
+
+/// Step and end of the run; where the structure does not say, the FMUs are asked.
+fn times(structure: &Structure, settings: &Settings, fmus: &[&Fmu; 2], report: &mut Report) -> (f64, f64) {
+    const PLACE: &str = "/SystemStructureDescription/DefaultExperiment";
+    let experiment = &structure.experiment;
+    if let Some(start) = experiment.start.filter(|start| *start != 0.0) {
+        report.problem(&format!("{PLACE}/@startTime"), format!("is {start}; runs start at 0"));
+    }
+    let positive = |time: &f64| *time > 0.0 && time.is_finite();
+    let end = experiment.stop.or_else(|| fmus.iter().find_map(|fmu| fmu.description().stop_time));
+    let end = end.filter(positive).unwrap_or_else(|| {
+        report.problem(&format!("{PLACE}/@stopTime"), "there is no end after 0, neither here nor in the FMUs");
+        0.0
+    });
+    let step = settings.step.or_else(|| fmus.iter().find_map(|fmu| fmu.description().step_size));
+    let step = step.filter(positive).unwrap_or_else(|| {
+        let message = "there is no step: say it with the attribute step of the annotation org.ttb.coupling";
+        report.problem(PLACE, message);
+        0.0
+    });
+    (step, end)
+}
+
+/// The links from a component, in the order of the inputs they lead to, as where equal names are connected.
+fn wires(links: &[Link], from: usize, fmus: &[Fmu; 2]) -> Vec<Wire> {
+    let inputs = fmus[1 - from].description().with_causality("input");
+    let order: std::collections::HashMap<&str, usize> = inputs.enumerate().map(|(i, v)| (v.name.as_str(), i)).collect();
+    let mut links: Vec<&Link> = links.iter().filter(|link| link.from == from).collect();
+    links.sort_by_key(|link| order.get(link.input.as_str()));
+    let wire = |link: &Link| Wire {
+        output: link.output.clone(),
+        input: link.input.clone(),
+        from_output: link.to_si,
+        to_input: link.from_si,
+    };
+    links.into_iter().map(wire).collect()
+}
+
+/// SHA-256 of a file.
+fn fingerprint(path: &Path) -> Result<String, Error> {
+    let mut file = std::fs::File::open(path).map_err(Error::io(path))?;
+    let (mut digest, mut buffer) = (Sha256::new(), vec![0; 1 << 16]);
+    loop {
+        let read = file.read(&mut buffer).map_err(Error::io(path))?;
+        if read == 0 {
+            return Ok(digest.finalize().iter().map(|byte| format!("{byte:02x}")).collect());
+        }
+        digest.update(&buffer[..read]);
+    }
+}
