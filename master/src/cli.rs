@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use clap::{Args, Parser, Subcommand};
+use clap::{Args, Parser, Subcommand, ValueEnum};
 
 /// Train–track–bridge co-simulation.
 ///
@@ -69,6 +69,9 @@ pub enum Command {
         #[arg(long)]
         bridge: bool,
     },
+    /// What `ttb run --isolate` starts to run an FMU in
+    #[command(hide = true)]
+    Host,
 }
 
 const RUN_HELP: &str = "\
@@ -77,7 +80,10 @@ The output folder gets
   iterations.csv   one row a step: iterations, residual, contraction, roll-backs, seconds
   summary.json     peaks with place and time, contact forces, iterations, timing, versions
   results.svg      deck, cars and wheels over time
-  *.fmu            the two FMUs that were run";
+  *.fmu            the two FMUs that were run
+
+A foreign FMU that crashes takes the program and its results along, unless it is isolated:
+  ttb run scenario.json --bridge THEIRS.fmu --isolate --timeout 10";
 
 const EXPORT_HELP: &str = "\
 FMPy, ecos, libcosim and other importers of SSP 1.0 simulate the file, in one pass a step; `ttb run FILE.ssp` iterates
@@ -108,9 +114,32 @@ pub struct Run {
     /// Use this FMU as the bridge instead of building one
     #[arg(long, value_name = "FMU")]
     pub bridge: Option<PathBuf>,
+    /// Run FMUs in processes of their own: should one crash or hang, the results so far are kept
+    ///
+    /// Without value: the FMUs given by --bridge and --train-track, or both of an .ssp file. What such an FMU prints goes
+    /// to standard error, each line after its name. Linux only.
+    #[arg(long, value_name = "SIDE", num_args = 0..=1, require_equals = true, default_missing_value = "given")]
+    pub isolate: Option<Isolate>,
+    /// Longest time a call of an isolated FMU may take [default: 60]
+    #[arg(long, value_name = "SECONDS", requires = "isolate", allow_negative_numbers = true)]
+    pub timeout: Option<f64>,
     /// No progress, no summary
     #[arg(short, long)]
     pub quiet: bool,
+}
+
+/// The FMUs to isolate.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Isolate {
+    /// The train–track FMU
+    TrainTrack,
+    /// The bridge FMU
+    Bridge,
+    /// Both FMUs
+    Both,
+    /// Those given by --bridge and --train-track, or by an .ssp file
+    #[value(hide = true)]
+    Given,
 }
 
 const CHECK_HELP: &str = "\

@@ -9,6 +9,7 @@ use ttb_scenario::Checked;
 use ttb_scenario::types::{CouplingSettings, Send};
 
 use crate::error::Error;
+use crate::isolate::{self, Isolated};
 
 /// Both FMUs in initialization mode, and their coupling.
 pub struct Connected {
@@ -43,10 +44,11 @@ pub struct Wiring {
 }
 
 /// Loads both FMUs, enters initialization mode, connects.
-pub fn connect(train_track: &Path, bridge: &Path, checked: &Checked) -> Result<Connected, Error> {
+pub fn connect(train_track: &Path, bridge: &Path, checked: &Checked, isolated: &Isolated) -> Result<Connected, Error> {
     let end = checked.train_track.end;
-    let train_track = instantiate(&Fmu::open(train_track)?, "TrainTrack", end)?;
-    let bridge = instantiate(&Fmu::open(bridge)?, "Bridge", end)?;
+    let train_track = isolate::open(train_track, isolated.train_track.as_ref())?;
+    let train_track = instantiate(&train_track, "TrainTrack", end)?;
+    let bridge = instantiate(&isolate::open(bridge, isolated.bridge.as_ref())?, "Bridge", end)?;
     let forces = shared(train_track.description(), bridge.description());
     let motions = shared(bridge.description(), train_track.description());
     let mut warnings = checked.warnings.clone();

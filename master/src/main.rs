@@ -17,6 +17,7 @@ mod error;
 mod generate;
 mod inspect;
 mod inspect_bridge;
+mod isolate;
 mod job;
 mod map;
 mod peaks;
@@ -69,6 +70,7 @@ fn execute(command: Command) -> Result<(), Error> {
             Ok(())
         }
         Command::Generate(arguments) => generate::generate(&arguments),
+        Command::Host => ttb_fmi2::isolate::host().map_err(Error::Input),
         Command::InspectBridge { file } => inspect_bridge::inspect(&file),
         Command::Schema { bridge } => {
             say!("{:#}", if bridge { ttb_scenario::model_schema() } else { ttb_scenario::schema() });

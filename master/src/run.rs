@@ -15,6 +15,7 @@ use crate::cli::Run;
 use crate::connect::{Connected, connect};
 use crate::coupled::CouplingReport;
 use crate::error::Error;
+use crate::isolate::Isolated;
 use crate::job::Job;
 use crate::peaks::Peaks;
 use crate::plot::Plot;
@@ -27,13 +28,15 @@ const PROGRESS: u64 = 50;
 
 /// The command.
 pub fn run(arguments: &Run) -> Result<(), Error> {
-    match arguments.scenario.as_deref().filter(|path| is_system(path)) {
-        Some(path) => run_system(path, arguments),
-        None => run_scenario(arguments),
-    }
+    let isolated = Isolated::new(arguments)?;
+    let done = match arguments.scenario.as_deref().filter(|path| is_system(path)) {
+        Some(path) => run_system(path, arguments, &isolated),
+        None => run_scenario(arguments, &isolated),
+    };
+    done.map_err(|error| isolated.advise(error, arguments))
 }
 
-fn run_scenario(arguments: &Run) -> Result<(), Error> {
+fn run_scenario(arguments: &Run, isolated: &Isolated) -> Result<(), Error> {
     let checked = build::scenario(arguments.scenario.as_deref())?;
     for given in [&arguments.train_track, &arguments.bridge].into_iter().flatten() {
         std::fs::File::open(given).map_err(|e| Error::Input(format!("{}: {e}", given.display())))?;
@@ -43,21 +46,21 @@ fn run_scenario(arguments: &Run) -> Result<(), Error> {
     let train_track = arguments.train_track.clone().map_or_else(|| build::train_track(&checked, folder), Ok)?;
     let bridge = arguments.bridge.clone().map_or_else(|| build::bridge(&checked, folder), Ok)?;
     let (stop, begin) = (stop_on_interrupt(), Instant::now());
-    let connected = connect(&train_track, &bridge, &checked)?;
+    let connected = connect(&train_track, &bridge, &checked, isolated)?;
     for warning in &connected.warnings[checked.warnings.len()..] {
         eprintln!("ttb: warning: {warning}");
     }
     run_connected(&Job::from(&checked), connected, arguments, &stop, begin)
 }
 
-fn run_system(path: &Path, arguments: &Run) -> Result<(), Error> {
+fn run_system(path: &Path, arguments: &Run, isolated: &Isolated) -> Result<(), Error> {
     if arguments.train_track.is_some() || arguments.bridge.is_some() {
         return Err(Error::Input(
             "--train-track and --bridge belong to a scenario; an .ssp file names its FMUs itself".into(),
         ));
     }
     let (stop, begin) = (stop_on_interrupt(), Instant::now());
-    let opened = Opened::open(path)?;
+    let opened = Opened::open(path, isolated)?;
     let connected = opened.connect()?;
     for warning in &connected.warnings {
         eprintln!("ttb: warning: {warning}");

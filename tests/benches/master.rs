@@ -1,8 +1,8 @@
 //! The master's own cost with two trivial C FMUs and 1,000 couplings each way: a step's time without that inside the FMU
 //! calls. `cargo bench -p ttb-tests --bench master`; needs a C compiler (`cc`).
 
-use std::path::Path;
-use std::process::Command;
+mod trivial;
+
 use std::time::Instant;
 
 use ttb_coupling::iteration::{OnFailure, Settings};
@@ -10,17 +10,17 @@ use ttb_coupling::predictor::Predictor;
 use ttb_coupling::{Coupling, Method};
 use ttb_fmi2::import::{Fmu, FmuSubsystem};
 
-const N: usize = 1000;
+use trivial::{N, pack};
+
 const STEPS: usize = 20_000;
 const ROUNDS: usize = 7;
 
 fn main() {
     let folder = tempfile::tempdir().expect("temporary folder");
-    let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("benches/trivial.c");
     let names = |kind: &str| (1..=N).map(|i| format!("{kind}[{i}]")).collect::<Vec<_>>();
     let (forces, motions) = (names("f"), names("d"));
     let make = |name: &str, inputs: &[String], outputs: &[String], gain: &str| {
-        let fmu = pack(folder.path(), &source, name, inputs, outputs, gain);
+        let fmu = pack(folder.path(), name, inputs, outputs, gain);
         let mut instance = Fmu::open(&fmu).and_then(|fmu| fmu.instantiate(name, false)).expect("trivial FMU");
         instance.setup_experiment(0.0, None).and_then(|()| instance.enter_initialization()).expect("initialization");
         FmuSubsystem::new(instance, inputs, outputs).expect("names")
@@ -75,47 +75,4 @@ fn settings(limit: usize, method: Method) -> Settings {
         hold_forces: false,
         on_failure: OnFailure::Accept,
     }
-}
-
-/// Compiles the C source and packs it as an FMU.
-fn pack(
-    folder: &Path,
-    source: &Path,
-    name: &str,
-    inputs: &[String],
-    outputs: &[String],
-    gain: &str,
-) -> std::path::PathBuf {
-    use std::io::Write;
-    let library = folder.join(format!("{name}.so"));
-    let compiled = Command::new("cc")
-        .args(["-O2", "-shared", "-fPIC", "-o"])
-        .arg(&library)
-        .arg(source)
-        .arg(format!("-DGAIN={gain}"))
-        .status();
-    assert!(compiled.expect("a C compiler").success());
-    let variable = |(i, (name, causality)): (usize, (&String, &str))| {
-        let start = if causality == "input" { " start=\"0\"" } else { "" };
-        format!(
-            "<ScalarVariable name=\"{name}\" valueReference=\"{i}\" causality=\"{causality}\"><Real{start}/></ScalarVariable>"
-        )
-    };
-    let all = inputs.iter().map(|n| (n, "input")).chain(outputs.iter().map(|n| (n, "output")));
-    let variables: String = all.enumerate().map(variable).collect();
-    let xml = format!(
-        "<?xml version=\"1.0\"?><fmiModelDescription fmiVersion=\"2.0\" modelName=\"{name}\" guid=\"g\"><CoSimulation modelIdentifier=\"{name}\" \
-         canHandleVariableCommunicationStepSize=\"true\" canInterpolateInputs=\"true\" canGetAndSetFMUstate=\"true\"/>\
-         <ModelVariables>{variables}</ModelVariables><ModelStructure/></fmiModelDescription>"
-    );
-    let path = folder.join(format!("{name}.fmu"));
-    let mut zip = zip::ZipWriter::new(std::fs::File::create(&path).expect("FMU file"));
-    let options = zip::write::SimpleFileOptions::default();
-    zip.start_file("modelDescription.xml", options).and_then(|()| Ok(zip.write_all(xml.as_bytes())?)).expect("XML");
-    let binary = std::fs::read(&library).expect("library");
-    zip.start_file(format!("binaries/linux64/{name}.so"), options)
-        .and_then(|()| Ok(zip.write_all(&binary)?))
-        .expect("binary");
-    zip.finish().expect("archive");
-    path
 }

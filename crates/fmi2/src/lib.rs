@@ -9,5 +9,6 @@ pub mod export;
 #[cfg(feature = "import")]
 pub mod import;
 #[cfg(feature = "import")]
+pub mod isolate;
 pub mod probe;
 pub mod types;

@@ -5,6 +5,7 @@ use std::path::Path;
 
 use sha2::{Digest, Sha256};
 use ttb_fmi2::import::{Fmu, UnpackError, unpack};
+use ttb_fmi2::isolate::Isolation;
 use ttb_ssp::{Report, STRUCTURE, Structure};
 
 use super::annotation::{self, Settings};
@@ -12,6 +13,7 @@ use super::roles;
 use super::wiring::{Link, links};
 use crate::connect::{Connected, Wire, Wiring, couple, instantiate};
 use crate::error::Error;
+use crate::isolate::{self, Isolated};
 use crate::job::{Job, Origin};
 
 /// A system structure that can be run.
@@ -33,7 +35,7 @@ pub fn is_system(path: &Path) -> bool {
 
 impl Opened {
     /// Reads and checks an archive.
-    pub fn open(path: &Path) -> Result<Self, Error> {
+    pub fn open(path: &Path, isolated: &Isolated) -> Result<Self, Error> {
         let refused = |why: String| Error::Input(format!("{}: {why}", path.display()));
         let folder = unpack(path).map_err(|error| match error {
             UnpackError::Archive(error) => refused(format!("is no readable system structure (zip archive): {error}")),
@@ -45,8 +47,10 @@ impl Opened {
         let structure = ttb_ssp::read(&bytes, &file).map_err(|report| Error::Input(report.to_string()))?;
         let mut report = Report::new(file);
         let settings = annotation::read(&structure.experiment.annotations, &mut report);
-        let fmus = open_fmus(&structure, folder.path(), &mut report)?;
-        let Some(fmus) = fmus else { return Err(Error::Input(report.to_string())) };
+        // Which side an FMU is shows later: until then none is loaded here if any is to be kept apart.
+        let isolation = isolated.train_track.as_ref().or(isolated.bridge.as_ref());
+        let fmus = open_fmus(&structure, folder.path(), isolation, &mut report)?;
+        let Some(mut fmus) = fmus else { return Err(Error::Input(report.to_string())) };
         let components = &structure.system.components;
         let sides = [(&components[0], fmus[0].description()), (&components[1], fmus[1].description())];
         let links = links(&structure, &sides, &mut report);
@@ -72,6 +76,11 @@ impl Opened {
             end,
             output: settings.output,
         };
+        for (i, wanted) in [(train_track, &isolated.train_track), (1 - train_track, &isolated.bridge)] {
+            if isolation.is_some() && wanted.is_none() {
+                fmus[i] = Fmu::open(&folder.path().join(&components[i].source))?;
+            }
+        }
         let [first, second] = fmus;
         let mut named = [(components[0].name.clone(), first), (components[1].name.clone(), second)];
         if train_track == 1 {
@@ -89,7 +98,12 @@ impl Opened {
 }
 
 /// The two FMUs in the order of the components; nothing if there are not two, which is then reported.
-fn open_fmus(structure: &Structure, folder: &Path, report: &mut Report) -> Result<Option<[Fmu; 2]>, Error> {
+fn open_fmus(
+    structure: &Structure,
+    folder: &Path,
+    isolation: Option<&Isolation>,
+    report: &mut Report,
+) -> Result<Option<[Fmu; 2]>, Error> {
     let components = &structure.system.components;
     let paths: Vec<_> = components.iter().map(|component| folder.join(&component.source)).collect();
     let mut missing = false;
@@ -110,7 +124,7 @@ fn open_fmus(structure: &Structure, folder: &Path, report: &mut Report) -> Resul
     if missing {
         return Ok(None);
     }
-    Ok(Some([Fmu::open(first)?, Fmu::open(second)?]))
+    Ok(Some([isolate::open(first, isolation)?, isolate::open(second, isolation)?]))
 }
 
 /// Step and end of the run; where the structure does not say, the FMUs are asked.

@@ -3,9 +3,7 @@
 use super::description::VariableType;
 use super::error::FmuError;
 use super::instance::FmuInstance;
-use crate::types::*;
-use std::ffi::{CStr, CString};
-use std::ptr;
+use super::slave::Optional;
 
 impl FmuInstance {
     /// Reads Reals.
@@ -16,9 +14,7 @@ impl FmuInstance {
         if !self.worth_calling(references.len(), values.len())? {
             return Ok(());
         }
-        let (vr, n, out) = (references.as_ptr(), references.len(), values.as_mut_ptr());
-        // SAFETY: a live instance and two arrays of n items.
-        self.run("fmi2GetReal", |f, c| unsafe { (f.get_real)(c, vr, n, out) })
+        self.run("fmi2GetReal", |slave| slave.get_real(references, values))
     }
 
     /// Sets Reals.
@@ -29,9 +25,7 @@ impl FmuInstance {
         if !self.worth_calling(references.len(), values.len())? {
             return Ok(());
         }
-        let (vr, n, values) = (references.as_ptr(), references.len(), values.as_ptr());
-        // SAFETY: a live instance and two arrays of n items.
-        self.run("fmi2SetReal", |f, c| unsafe { (f.set_real)(c, vr, n, values) })
+        self.run("fmi2SetReal", |slave| slave.set_real(references, values))
     }
 
     /// Sets derivatives of inputs for the coming step; `orders` is 1 for first derivatives.
@@ -47,12 +41,9 @@ impl FmuInstance {
         if !self.worth_calling(references.len(), values.len().min(orders.len()))? {
             return Ok(());
         }
-        let Some(set) = self.loaded.functions.set_input_derivatives else {
-            return Err(self.missing("fmi2SetRealInputDerivatives"));
-        };
-        let (vr, n, orders, values) = (references.as_ptr(), references.len(), orders.as_ptr(), values.as_ptr());
-        // SAFETY: a live instance and three arrays of n items at least.
-        self.run("fmi2SetRealInputDerivatives", |_, c| unsafe { set(c, vr, n, orders, values) })
+        self.needs(Optional::SetInputDerivatives)?;
+        let (orders, values) = (&orders[..references.len()], &values[..references.len()]);
+        self.run("fmi2SetRealInputDerivatives", |slave| slave.set_input_derivatives(references, orders, values))
     }
 
     /// Derivative of `unknown` outputs along a change `seed` of the `known` inputs.
@@ -70,13 +61,8 @@ impl FmuInstance {
             out.fill(0.0);
             return Ok(());
         }
-        let Some(derive) = self.loaded.functions.directional_derivative else {
-            return Err(self.missing("fmi2GetDirectionalDerivative"));
-        };
-        let (vr, n, out) = (unknown.as_ptr(), unknown.len(), out.as_mut_ptr());
-        let (known, m, seed) = (known.as_ptr(), known.len(), seed.as_ptr());
-        // SAFETY: a live instance, two arrays of n items and two of m.
-        self.run("fmi2GetDirectionalDerivative", |_, c| unsafe { derive(c, vr, n, known, m, seed, out) })
+        self.needs(Optional::DirectionalDerivative)?;
+        self.run("fmi2GetDirectionalDerivative", |slave| slave.directional_derivative(unknown, known, seed, out))
     }
 
     /// Sets one variable by name to a number, whatever its numeric type: a Boolean to `value != 0`.
@@ -121,12 +107,9 @@ impl FmuInstance {
     /// # Errors
     /// The FMU refuses.
     pub fn get_integer(&mut self, reference: u32) -> Result<i32, FmuError> {
-        let Some(get) = self.loaded.functions.get_integer else { return Err(self.missing("fmi2GetInteger")) };
+        self.needs(Optional::GetInteger)?;
         let mut value = 0;
-        let out = &raw mut value;
-        // SAFETY: a live instance and arrays of one item.
-        self.run("fmi2GetInteger", |_, c| unsafe { get(c, &reference, 1, out) })?;
-        Ok(value)
+        self.run("fmi2GetInteger", |slave| slave.get_integer(reference, &mut value)).map(|()| value)
     }
 
     /// Reads a Boolean.
@@ -134,12 +117,9 @@ impl FmuInstance {
     /// # Errors
     /// The FMU refuses.
     pub fn get_boolean(&mut self, reference: u32) -> Result<bool, FmuError> {
-        let Some(get) = self.loaded.functions.get_boolean else { return Err(self.missing("fmi2GetBoolean")) };
-        let mut value = FMI2_FALSE;
-        let out = &raw mut value;
-        // SAFETY: a live instance and arrays of one item.
-        self.run("fmi2GetBoolean", |_, c| unsafe { get(c, &reference, 1, out) })?;
-        Ok(value != FMI2_FALSE)
+        self.needs(Optional::GetBoolean)?;
+        let mut value = false;
+        self.run("fmi2GetBoolean", |slave| slave.get_boolean(reference, &mut value)).map(|()| value)
     }
 
     /// Reads a String.
@@ -147,16 +127,9 @@ impl FmuInstance {
     /// # Errors
     /// The FMU refuses.
     pub fn get_string(&mut self, reference: u32) -> Result<String, FmuError> {
-        let Some(get) = self.loaded.functions.get_string else { return Err(self.missing("fmi2GetString")) };
-        let mut value: fmi2String = ptr::null();
-        let out = &raw mut value;
-        // SAFETY: a live instance and arrays of one item.
-        self.run("fmi2GetString", |_, c| unsafe { get(c, &reference, 1, out) })?;
-        if value.is_null() {
-            return Ok(String::new());
-        }
-        // SAFETY: FMI 2.0 keeps the string until the next call; it is copied here.
-        Ok(unsafe { CStr::from_ptr(value) }.to_string_lossy().into_owned())
+        self.needs(Optional::GetString)?;
+        let mut value = String::new();
+        self.run("fmi2GetString", |slave| slave.get_string(reference, &mut value)).map(|()| value)
     }
 
     /// Sets an Integer or an enumeration.
@@ -164,9 +137,8 @@ impl FmuInstance {
     /// # Errors
     /// The FMU refuses.
     pub fn set_integer(&mut self, reference: u32, value: i32) -> Result<(), FmuError> {
-        let Some(set) = self.loaded.functions.set_integer else { return Err(self.missing("fmi2SetInteger")) };
-        // SAFETY: a live instance and arrays of one item.
-        self.run("fmi2SetInteger", |_, c| unsafe { set(c, &reference, 1, &value) })
+        self.needs(Optional::SetInteger)?;
+        self.run("fmi2SetInteger", |slave| slave.set_integer(reference, value))
     }
 
     /// Sets a Boolean.
@@ -174,10 +146,8 @@ impl FmuInstance {
     /// # Errors
     /// The FMU refuses.
     pub fn set_boolean(&mut self, reference: u32, value: bool) -> Result<(), FmuError> {
-        let Some(set) = self.loaded.functions.set_boolean else { return Err(self.missing("fmi2SetBoolean")) };
-        let value = fmi2Boolean::from(value);
-        // SAFETY: a live instance and arrays of one item.
-        self.run("fmi2SetBoolean", |_, c| unsafe { set(c, &reference, 1, &value) })
+        self.needs(Optional::SetBoolean)?;
+        self.run("fmi2SetBoolean", |slave| slave.set_boolean(reference, value))
     }
 
     /// Sets a String.
@@ -185,10 +155,11 @@ impl FmuInstance {
     /// # Errors
     /// The FMU refuses, or the text contains a zero byte.
     pub fn set_string(&mut self, reference: u32, value: &str) -> Result<(), FmuError> {
-        let Some(set) = self.loaded.functions.set_string else { return Err(self.missing("fmi2SetString")) };
-        let value = CString::new(value).map_err(|_| self.impossible("a String cannot contain a zero byte"))?;
-        // SAFETY: a live instance and arrays of one item.
-        self.run("fmi2SetString", |_, c| unsafe { set(c, &reference, 1, &value.as_ptr()) })
+        self.needs(Optional::SetString)?;
+        if value.contains('\0') {
+            return Err(self.impossible("a String cannot contain a zero byte"));
+        }
+        self.run("fmi2SetString", |slave| slave.set_string(reference, value))
     }
 
     fn find(&self, name: &str) -> Result<(u32, VariableType), FmuError> {
@@ -202,10 +173,5 @@ impl FmuInstance {
             return Ok(references > 0);
         }
         Err(self.impossible(format!("{references} variables were given {values} values")))
-    }
-
-    #[cold]
-    pub(super) fn missing(&self, function: &str) -> FmuError {
-        self.impossible(format!("its library has no {function}"))
     }
 }

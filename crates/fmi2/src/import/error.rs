@@ -46,6 +46,18 @@ pub enum FmuError {
         /// What was logged during the call.
         messages: Vec<Message>,
     },
+    /// The process of an isolated FMU has ended.
+    #[error("{instance}: {call}: its process {how}{}", last_words(messages))]
+    Gone {
+        /// Name of the instance.
+        instance: String,
+        /// The call, with its time.
+        call: String,
+        /// The signal or exit code, or that it gave no answer in time.
+        how: String,
+        /// What was logged during the call.
+        messages: Vec<Message>,
+    },
     /// `fmi2Instantiate` answered NULL.
     #[error("{instance}: fmi2Instantiate gave no instance{}", log(messages))]
     NoInstance {
@@ -77,8 +89,12 @@ pub enum FmuError {
 }
 
 fn log(messages: &[Message]) -> String {
+    if messages.is_empty() { " and logged nothing".into() } else { last_words(messages) }
+}
+
+fn last_words(messages: &[Message]) -> String {
     if messages.is_empty() {
-        return " and logged nothing".into();
+        return String::new();
     }
     let lines = messages.iter().map(|m| m.text.trim()).collect::<Vec<_>>();
     format!("; it logged: {}", lines.join(" | "))

@@ -2,14 +2,13 @@
 
 use super::description::ModelDescription;
 use super::error::FmuError;
-use super::fmu::{Loaded, file_uri};
-use super::library::Functions;
-use super::messages::{LOGGER, Message, Sink};
+use super::fmu::Loaded;
+use super::local::Local;
+use super::messages::{Message, Sink};
+use super::slave::{Answer, Handle, Optional, Slave};
 use crate::types::*;
-use std::ffi::{CString, c_void};
-use std::ptr;
 use std::sync::Arc;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 /// What an instance has done so far.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -35,82 +34,58 @@ pub(super) enum Health {
     Broken,
     /// Answered fmi2Fatal: FMI 2.0 forbids any further call, even freeing.
     Lost,
+    /// Its process has ended.
+    Gone,
+}
+
+/// A state slot's content: the FMU's handle and the time it was saved at.
+#[derive(Clone, Copy, Default)]
+pub(super) struct Saved {
+    pub handle: Handle,
+    pub time: f64,
 }
 
 /// An instance of an FMU. Dropping it frees its states, then the instance, then, with the last one, the library.
 pub struct FmuInstance {
     pub(super) name: String,
     pub(super) description: Arc<ModelDescription>,
-    pub(super) component: fmi2Component,
+    pub(super) slave: Box<dyn Slave>,
     pub(super) health: Health,
     pub(super) tally: Tally,
-    pub(super) states: Vec<fmi2FMUstate>,
+    pub(super) states: Vec<Saved>,
+    /// Where the FMU is in time, s; for messages.
+    pub(super) time: f64,
     initialized: bool,
-    sink: Box<Sink>,
-    /// FMUs may keep the pointer they were given, so the struct stays where it is.
-    _callbacks: Box<fmi2CallbackFunctions>,
-    /// Last, so that the library goes last.
-    pub(super) loaded: Arc<Loaded>,
-}
-
-// SAFETY: an instance may be used from any thread, by one at a time (FMI 2.0, section 2.1.1): `&mut self` sees to the
-// latter. The sink is behind a mutex, the callbacks struct is never written.
-unsafe impl Send for FmuInstance {}
-
-unsafe extern "C" {
-    fn calloc(count: usize, size: usize) -> *mut c_void;
-    fn free(memory: *mut c_void);
+    sink: Arc<Sink>,
 }
 
 impl FmuInstance {
-    pub(super) fn new(
+    /// In this process.
+    pub(super) fn local(
         name: &str,
         description: Arc<ModelDescription>,
         loaded: Arc<Loaded>,
         logging: bool,
     ) -> Result<Self, FmuError> {
         let sink = Sink::new();
-        let callbacks = Box::new(fmi2CallbackFunctions {
-            logger: Some(LOGGER),
-            allocate_memory: Some(calloc),
-            free_memory: Some(free),
-            step_finished: None,
-            component_environment: ptr::from_ref::<Sink>(&sink).cast_mut().cast(),
-        });
-        let c_name = CString::new(name).unwrap_or_default();
-        let guid = CString::new(description.guid.as_str()).unwrap_or_default();
-        let resources = CString::new(file_uri(&loaded.folder.path().join("resources"))).unwrap_or_default();
-        let begin = Instant::now();
-        // SAFETY: the strings and, behind the pointer, the callbacks are valid; the latter and the sink outlive the instance.
-        let component = unsafe {
-            (loaded.functions.instantiate)(
-                c_name.as_ptr(),
-                FMI2_CO_SIMULATION,
-                guid.as_ptr(),
-                resources.as_ptr(),
-                &raw const *callbacks,
-                FMI2_FALSE,
-                fmi2Boolean::from(logging),
-            )
-        };
-        let name = name.to_string();
-        if component.is_null() {
-            return Err(FmuError::NoInstance { instance: name, messages: sink.take() });
+        let (slave, time) = Local::new(name, &description.guid, loaded, Arc::clone(&sink), logging);
+        match slave {
+            Some(slave) => Ok(Self::new(name, description, Box::new(slave), time, sink)),
+            None => Err(FmuError::NoInstance { instance: name.to_string(), messages: sink.take() }),
         }
-        let tally = Tally { time: begin.elapsed(), ..Tally::default() };
-        let (health, states, initialized) = (Health::Sound, Vec::new(), false);
-        Ok(Self {
-            name,
-            description,
-            component,
-            health,
-            tally,
-            states,
-            initialized,
-            sink,
-            _callbacks: callbacks,
-            loaded,
-        })
+    }
+
+    /// Around a slave that took `time` to come alive.
+    pub(super) fn new(
+        name: &str,
+        description: Arc<ModelDescription>,
+        slave: Box<dyn Slave>,
+        time: Duration,
+        sink: Arc<Sink>,
+    ) -> Self {
+        let tally = Tally { time, ..Tally::default() };
+        let (name, health, states) = (name.to_string(), Health::Sound, Vec::new());
+        Self { name, description, slave, health, tally, states, time: 0.0, initialized: false, sink }
     }
 
     /// The name it was given.
@@ -135,11 +110,8 @@ impl FmuInstance {
     /// # Errors
     /// The FMU refuses.
     pub fn setup_experiment(&mut self, start: f64, stop: Option<f64>) -> Result<(), FmuError> {
-        let (defined, stop) = (fmi2Boolean::from(stop.is_some()), stop.unwrap_or(0.0));
-        // SAFETY: a live instance.
-        self.run("fmi2SetupExperiment", |f, c| unsafe {
-            (f.setup_experiment)(c, FMI2_FALSE, 0.0, start, defined, stop)
-        })
+        self.time = start;
+        self.run("fmi2SetupExperiment", |slave| slave.setup_experiment(start, stop))
     }
 
     /// Begins initialization.
@@ -147,8 +119,7 @@ impl FmuInstance {
     /// # Errors
     /// The FMU refuses, e.g. an impossible parameter.
     pub fn enter_initialization(&mut self) -> Result<(), FmuError> {
-        // SAFETY: a live instance.
-        self.run("fmi2EnterInitializationMode", |f, c| unsafe { (f.enter_initialization)(c) })
+        self.run("fmi2EnterInitializationMode", |slave| slave.enter_initialization())
     }
 
     /// Ends initialization.
@@ -156,8 +127,7 @@ impl FmuInstance {
     /// # Errors
     /// The FMU cannot start.
     pub fn exit_initialization(&mut self) -> Result<(), FmuError> {
-        // SAFETY: a live instance.
-        self.run("fmi2ExitInitializationMode", |f, c| unsafe { (f.exit_initialization)(c) })?;
+        self.run("fmi2ExitInitializationMode", |slave| slave.exit_initialization())?;
         self.initialized = true;
         Ok(())
     }
@@ -168,15 +138,20 @@ impl FmuInstance {
     /// The step was not done; the error names t and h.
     pub fn do_step(&mut self, t: f64, h: f64, may_restore: bool) -> Result<(), FmuError> {
         self.tally.steps += 1;
-        let no_restore = fmi2Boolean::from(!may_restore);
-        // SAFETY: a live instance.
-        let done = self.run("fmi2DoStep", |f, c| unsafe { (f.do_step)(c, t, h, no_restore) });
-        done.map_err(|mut error| {
-            if let FmuError::Call { call, .. } = &mut error {
-                *call = format!("fmi2DoStep from t = {t} s by {h} s");
+        self.time = t;
+        match self.run("fmi2DoStep", |slave| slave.do_step(t, h, may_restore)) {
+            Ok(()) => self.time = t + h,
+            Err(FmuError::Call { instance, call, status, messages }) if call == "fmi2DoStep" => {
+                let call = format!("fmi2DoStep from t = {t} s by {h} s");
+                return Err(FmuError::Call { instance, call, status, messages });
             }
-            error
-        })
+            Err(FmuError::Gone { instance, call, how, messages }) if call.starts_with("fmi2DoStep") => {
+                let call = format!("fmi2DoStep from t = {t} s by {h} s");
+                return Err(FmuError::Gone { instance, call, how, messages });
+            }
+            Err(other) => return Err(other),
+        }
+        Ok(())
     }
 
     /// Ends the simulation; values stay readable.
@@ -185,8 +160,7 @@ impl FmuInstance {
     /// The FMU refuses.
     pub fn terminate(&mut self) -> Result<(), FmuError> {
         self.initialized = false;
-        // SAFETY: a live instance.
-        self.run("fmi2Terminate", |f, c| unsafe { (f.terminate)(c) })
+        self.run("fmi2Terminate", |slave| slave.terminate())
     }
 
     /// Back to the moment after instantiation, also after an error.
@@ -196,8 +170,7 @@ impl FmuInstance {
     pub fn reset(&mut self) -> Result<(), FmuError> {
         self.initialized = false;
         self.mend();
-        // SAFETY: a live instance.
-        self.run("fmi2Reset", |f, c| unsafe { (f.reset)(c) })
+        self.run("fmi2Reset", |slave| slave.reset())
     }
 
     /// Before a call that is allowed after an error and heals it; should it fail, the instance is broken again.
@@ -207,24 +180,44 @@ impl FmuInstance {
         }
     }
 
-    /// Makes a call: checks that it is allowed, takes the time, turns the answer into a result.
+    /// Makes a call: checks that it is allowed, counts the time, turns the answer into a result.
     pub(super) fn run(
         &mut self,
         call: &'static str,
-        work: impl FnOnce(&Functions, fmi2Component) -> fmi2Status,
+        work: impl FnOnce(&mut dyn Slave) -> Answer,
     ) -> Result<(), FmuError> {
         if self.health != Health::Sound {
             return Err(self.unusable(call));
         }
         let mark = self.sink.received();
-        let begin = Instant::now();
-        let status = work(&self.loaded.functions, self.component);
-        self.tally.time += begin.elapsed();
-        if status == Status::Ok as fmi2Status { Ok(()) } else { self.not_ok(call, Status::from_c(status), mark) }
+        let answer = work(&mut *self.slave);
+        self.slave.collect(&self.sink);
+        self.tally.time += answer.time;
+        self.tally.warnings += u64::from(answer.warnings);
+        if answer.status == Status::Ok as fmi2Status {
+            return Ok(());
+        }
+        self.not_ok(call, Status::from_c(answer.status), mark)
+    }
+
+    /// That the library has a function.
+    pub(super) fn needs(&self, function: Optional) -> Result<(), FmuError> {
+        if self.slave.has(function) { Ok(()) } else { Err(self.missing(function)) }
     }
 
     #[cold]
-    fn not_ok(&mut self, call: &str, status: Status, mark: u64) -> Result<(), FmuError> {
+    fn missing(&self, function: Optional) -> FmuError {
+        self.impossible(format!("its library has no {}", function.symbol()))
+    }
+
+    #[cold]
+    fn not_ok(&mut self, call: &'static str, status: Status, mark: u64) -> Result<(), FmuError> {
+        let call = self.slave.blame().unwrap_or(call);
+        if let Some(how) = self.slave.death() {
+            self.health = Health::Gone;
+            let (instance, how, messages) = (self.name.clone(), how.to_string(), self.sink.since(mark));
+            return Err(FmuError::Gone { instance, call: format!("{call} at t = {} s", self.time), how, messages });
+        }
         match status {
             Status::Ok => return Ok(()),
             Status::Warning => {
@@ -245,6 +238,7 @@ impl FmuInstance {
     #[cold]
     fn unusable(&self, call: &str) -> FmuError {
         let why = match self.health {
+            Health::Gone => "the FMU's process is gone",
             Health::Lost => "the FMU answered fmi2Fatal before and must not be called any more",
             _ => "an earlier call failed; restore a state or reset the instance first",
         };
@@ -260,21 +254,25 @@ impl FmuInstance {
 
 impl Drop for FmuInstance {
     fn drop(&mut self) {
-        if self.health == Health::Lost {
+        if matches!(self.health, Health::Lost | Health::Gone) {
             return; // better a leak than a call that FMI forbids
         }
-        let functions = &self.loaded.functions;
+        let mut call = "fmi2Terminate";
         if self.initialized && self.health == Health::Sound {
-            // SAFETY: a live instance; what it answers no longer matters.
-            unsafe { (functions.terminate)(self.component) };
+            self.slave.terminate(); // what it answers no longer matters
         }
-        for state in self.states.iter_mut().filter(|state| !state.is_null()) {
-            if let Some(free_state) = functions.free_state {
-                // SAFETY: a state of this instance, freed once.
-                unsafe { free_state(self.component, state) };
+        if self.slave.death().is_none() && self.slave.has(Optional::FreeState) {
+            call = "fmi2FreeFMUstate";
+            for state in self.states.iter_mut().filter(|state| state.handle != 0) {
+                self.slave.free_state(&mut state.handle);
             }
         }
-        // SAFETY: a live instance, never used again; library, callbacks and sink are still there.
-        unsafe { (functions.free_instance)(self.component) };
+        if self.slave.death().is_none() {
+            call = "fmi2FreeInstance";
+            self.slave.free_instance();
+        }
+        if let Some(how) = self.slave.death() {
+            self.slave.report(&format!("{call}: its process {how}"));
+        }
     }
 }

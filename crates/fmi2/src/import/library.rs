@@ -1,5 +1,6 @@
 //! The shared library of an FMU: loaded, its functions bound once.
 
+use super::slave::Optional;
 use crate::types::*;
 use libloading::os::unix::{Library, RTLD_GLOBAL, RTLD_LOCAL, RTLD_NOW};
 use std::ffi::{CStr, c_char};
@@ -30,6 +31,9 @@ pub enum LibraryError {
     /// Another FMI version than the description's.
     #[error("the library implements FMI {0:?}, not 2.0")]
     Version(String),
+    /// Any of these, in the process of an isolated FMU.
+    #[error("{0}")]
+    Isolated(String),
 }
 
 /// The library of an FMU built with PythonFMU takes its Python from the process.
@@ -122,6 +126,24 @@ optional {
 }
 
 impl Functions {
+    /// The set of optional functions that are there, by their bits.
+    pub fn optional(&self) -> u64 {
+        let there = |is: bool, function: Optional| if is { function.bit() } else { 0 };
+        there(self.get_integer.is_some(), Optional::GetInteger)
+            | there(self.get_boolean.is_some(), Optional::GetBoolean)
+            | there(self.get_string.is_some(), Optional::GetString)
+            | there(self.set_integer.is_some(), Optional::SetInteger)
+            | there(self.set_boolean.is_some(), Optional::SetBoolean)
+            | there(self.set_string.is_some(), Optional::SetString)
+            | there(self.set_input_derivatives.is_some(), Optional::SetInputDerivatives)
+            | there(self.get_state.is_some(), Optional::GetState)
+            | there(self.set_state.is_some(), Optional::SetState)
+            | there(self.free_state.is_some(), Optional::FreeState)
+            | there(self.serialized_size.is_some() && self.serialize_state.is_some(), Optional::Serialize)
+            | there(self.deserialize_state.is_some(), Optional::Deserialize)
+            | there(self.directional_derivative.is_some(), Optional::DirectionalDerivative)
+    }
+
     /// Loads the library of an unpacked FMU.
     pub fn load(folder: &Path, model_identifier: &str) -> Result<Self, LibraryError> {
         let functions = Self::bind(open_library(&library_path(folder, model_identifier)?)?)?;

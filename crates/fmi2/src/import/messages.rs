@@ -4,7 +4,7 @@ use crate::types::{Status, fmi2CallbackLogger};
 use std::collections::VecDeque;
 use std::ffi::{CStr, c_char, c_int, c_void};
 use std::sync::atomic::{AtomicU64, Ordering};
-use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 /// One logged message.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -18,14 +18,20 @@ pub struct Message {
 }
 
 /// Messages kept of an instance; older ones go.
-const KEPT: usize = 200;
+pub(crate) const KEPT: usize = 200;
 
-type Write = unsafe extern "C" fn(*mut c_void, c_int, *const c_char, *const c_char);
+/// What the shim calls with its target, the message's status, category and text; the strings may be null.
+pub(crate) type Write = unsafe extern "C" fn(*mut c_void, c_int, *const c_char, *const c_char);
 
-/// Where the messages of one instance end up. Its address is the instance's `componentEnvironment`; the C shim calls the
-/// function in its first field.
+/// Something whose address may be an instance's `componentEnvironment`.
+///
+/// # Safety
+/// The type is `repr(C)` and its first field is a [`Write`] that can be called with its address from any thread.
+pub(crate) unsafe trait LogTarget: std::any::Any + Send + Sync {}
+
+/// Where the messages of one instance end up.
 #[repr(C)]
-pub(super) struct Sink {
+pub(crate) struct Sink {
     write: Write,
     received: AtomicU64,
     kept: Mutex<VecDeque<Message>>,
@@ -43,13 +49,16 @@ unsafe extern "C" {
     );
 }
 
-/// The `logger` for an FMU whose `componentEnvironment` is a [`Sink`].
-pub(super) const LOGGER: fmi2CallbackLogger = ttb_fmi2_logger;
+// SAFETY: its first field is `write` below, which locks what it changes.
+unsafe impl LogTarget for Sink {}
+
+/// The `logger` for an FMU whose `componentEnvironment` is a [`LogTarget`].
+pub(crate) const LOGGER: fmi2CallbackLogger = ttb_fmi2_logger;
 
 impl Sink {
-    /// An empty sink; boxed, since its address must not change.
-    pub fn new() -> Box<Self> {
-        Box::new(Self { write, received: AtomicU64::new(0), kept: Mutex::new(VecDeque::new()) })
+    /// An empty sink, in a place that does not change.
+    pub fn new() -> Arc<Self> {
+        Arc::new(Self { write, received: AtomicU64::new(0), kept: Mutex::new(VecDeque::new()) })
     }
 
     /// Messages received so far, also those no longer kept.
@@ -74,7 +83,8 @@ impl Sink {
         self.kept.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    fn push(&self, message: Message) {
+    /// One more message.
+    pub fn push(&self, message: Message) {
         let mut kept = self.lock();
         if kept.len() == KEPT {
             kept.pop_front();
@@ -95,6 +105,6 @@ unsafe extern "C" fn write(sink: *mut c_void, status: c_int, category: *const c_
         false => unsafe { CStr::from_ptr(pointer) }.to_string_lossy().into_owned(),
     };
     let message = Message { status: Status::from_c(status), category: string(category), text: string(text) };
-    // SAFETY: an FmuInstance keeps its sink until the FMU has freed the instance.
+    // SAFETY: a `Local` keeps its log target until the FMU has freed the instance.
     unsafe { &*sink.cast::<Sink>() }.push(message);
 }

@@ -8,12 +8,14 @@
 mod access;
 mod decode;
 pub mod description;
-mod error;
-mod fmu;
+pub(crate) mod error;
+pub(crate) mod fmu;
 mod instance;
-mod library;
-mod messages;
+pub(crate) mod library;
+pub(crate) mod local;
+pub(crate) mod messages;
 mod reader;
+pub(crate) mod slave;
 mod state;
 mod subsystem;
 mod transform;

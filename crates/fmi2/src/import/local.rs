@@ -1,0 +1,239 @@
+//! An instance in this process: every verb is the call of a C function.
+
+use super::fmu::{Loaded, file_uri};
+use super::library::Functions;
+use super::messages::{LOGGER, LogTarget};
+use super::slave::{Answer, Handle, Optional, Slave};
+use crate::types::*;
+use std::any::Any;
+use std::ffi::{CStr, CString, c_void};
+use std::ptr;
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+/// A living instance. [`Slave::free_instance`] frees it; without that it leaks, which fmi2Fatal demands.
+pub(crate) struct Local {
+    component: fmi2Component,
+    /// FMUs may keep the pointer they were given, so the struct stays where it is.
+    _callbacks: Box<fmi2CallbackFunctions>,
+    _log: Arc<dyn Any + Send + Sync>,
+    /// Last, so that the library goes last.
+    loaded: Arc<Loaded>,
+}
+
+// SAFETY: an instance may be used from any thread, by one at a time (FMI 2.0, section 2.1.1): `&mut self` sees to the
+// latter. The log target is Sync, the callbacks struct is never written.
+unsafe impl Send for Local {}
+
+unsafe extern "C" {
+    fn calloc(count: usize, size: usize) -> *mut c_void;
+    fn free(memory: *mut c_void);
+}
+
+impl Local {
+    /// `fmi2Instantiate`, and how long it took; nothing if the FMU gives no instance.
+    pub fn new<L: LogTarget>(
+        name: &str,
+        guid: &str,
+        loaded: Arc<Loaded>,
+        log: Arc<L>,
+        logging: bool,
+    ) -> (Option<Self>, Duration) {
+        let callbacks = Box::new(fmi2CallbackFunctions {
+            logger: Some(LOGGER),
+            allocate_memory: Some(calloc),
+            free_memory: Some(free),
+            step_finished: None,
+            component_environment: Arc::as_ptr(&log).cast_mut().cast(),
+        });
+        let name = CString::new(name).unwrap_or_default();
+        let guid = CString::new(guid).unwrap_or_default();
+        let resources = CString::new(file_uri(&loaded.folder.path().join("resources"))).unwrap_or_default();
+        let begin = Instant::now();
+        // SAFETY: the strings and, behind the pointer, the callbacks are valid; the latter and the log outlive the instance.
+        let component = unsafe {
+            (loaded.functions.instantiate)(
+                name.as_ptr(),
+                FMI2_CO_SIMULATION,
+                guid.as_ptr(),
+                resources.as_ptr(),
+                &raw const *callbacks,
+                FMI2_FALSE,
+                fmi2Boolean::from(logging),
+            )
+        };
+        let time = begin.elapsed();
+        if component.is_null() {
+            return (None, time);
+        }
+        (Some(Self { component, _callbacks: callbacks, _log: log, loaded }), time)
+    }
+
+    /// Makes a call and takes its time.
+    fn call(&self, work: impl FnOnce(&Functions, fmi2Component) -> fmi2Status) -> Answer {
+        let begin = Instant::now();
+        let status = work(&self.loaded.functions, self.component);
+        Answer { status, time: begin.elapsed(), warnings: 0 }
+    }
+}
+
+/// An optional function of an instance's library; without it the answer is an error.
+macro_rules! function {
+    ($self:ident.$field:ident) => {
+        match $self.loaded.functions.$field {
+            Some(function) => function,
+            None => return Answer::NOTHING,
+        }
+    };
+}
+
+impl Slave for Local {
+    fn has(&self, function: Optional) -> bool {
+        self.loaded.functions.optional() & function.bit() != 0
+    }
+
+    fn setup_experiment(&mut self, start: f64, stop: Option<f64>) -> Answer {
+        let (defined, stop) = (fmi2Boolean::from(stop.is_some()), stop.unwrap_or(0.0));
+        // SAFETY: a live instance.
+        self.call(|f, c| unsafe { (f.setup_experiment)(c, FMI2_FALSE, 0.0, start, defined, stop) })
+    }
+    fn enter_initialization(&mut self) -> Answer {
+        // SAFETY: a live instance.
+        self.call(|f, c| unsafe { (f.enter_initialization)(c) })
+    }
+    fn exit_initialization(&mut self) -> Answer {
+        // SAFETY: a live instance.
+        self.call(|f, c| unsafe { (f.exit_initialization)(c) })
+    }
+    fn do_step(&mut self, t: f64, h: f64, may_restore: bool) -> Answer {
+        let no_restore = fmi2Boolean::from(!may_restore);
+        // SAFETY: a live instance.
+        self.call(|f, c| unsafe { (f.do_step)(c, t, h, no_restore) })
+    }
+    fn terminate(&mut self) -> Answer {
+        // SAFETY: a live instance.
+        self.call(|f, c| unsafe { (f.terminate)(c) })
+    }
+    fn reset(&mut self) -> Answer {
+        // SAFETY: a live instance.
+        self.call(|f, c| unsafe { (f.reset)(c) })
+    }
+    fn free_instance(&mut self) {
+        // SAFETY: a live instance, by contract never used again; library, callbacks and log are still there.
+        unsafe { (self.loaded.functions.free_instance)(self.component) };
+    }
+
+    fn get_real(&mut self, references: &[u32], values: &mut [f64]) -> Answer {
+        let (vr, n, out) = (references.as_ptr(), references.len(), values.as_mut_ptr());
+        // SAFETY: a live instance and two arrays of n items.
+        self.call(|f, c| unsafe { (f.get_real)(c, vr, n, out) })
+    }
+    fn set_real(&mut self, references: &[u32], values: &[f64]) -> Answer {
+        let (vr, n, values) = (references.as_ptr(), references.len(), values.as_ptr());
+        // SAFETY: a live instance and two arrays of n items.
+        self.call(|f, c| unsafe { (f.set_real)(c, vr, n, values) })
+    }
+    fn set_input_derivatives(&mut self, references: &[u32], orders: &[i32], values: &[f64]) -> Answer {
+        let set = function!(self.set_input_derivatives);
+        let (vr, n, orders, values) = (references.as_ptr(), references.len(), orders.as_ptr(), values.as_ptr());
+        // SAFETY: a live instance and three arrays of n items at least.
+        self.call(|_, c| unsafe { set(c, vr, n, orders, values) })
+    }
+    fn directional_derivative(&mut self, unknown: &[u32], known: &[u32], seed: &[f64], out: &mut [f64]) -> Answer {
+        let derive = function!(self.directional_derivative);
+        let (vr, n, out) = (unknown.as_ptr(), unknown.len(), out.as_mut_ptr());
+        let (known, m, seed) = (known.as_ptr(), known.len(), seed.as_ptr());
+        // SAFETY: a live instance, two arrays of n items and two of m.
+        self.call(|_, c| unsafe { derive(c, vr, n, known, m, seed, out) })
+    }
+    fn get_integer(&mut self, reference: u32, value: &mut i32) -> Answer {
+        let get = function!(self.get_integer);
+        // SAFETY: a live instance and arrays of one item.
+        self.call(|_, c| unsafe { get(c, &reference, 1, value) })
+    }
+    fn get_boolean(&mut self, reference: u32, value: &mut bool) -> Answer {
+        let get = function!(self.get_boolean);
+        let mut answer = FMI2_FALSE;
+        let out = &raw mut answer;
+        // SAFETY: a live instance and arrays of one item.
+        let done = self.call(|_, c| unsafe { get(c, &reference, 1, out) });
+        *value = answer != FMI2_FALSE;
+        done
+    }
+    fn get_string(&mut self, reference: u32, value: &mut String) -> Answer {
+        let get = function!(self.get_string);
+        let mut text: fmi2String = ptr::null();
+        let out = &raw mut text;
+        // SAFETY: a live instance and arrays of one item.
+        let done = self.call(|_, c| unsafe { get(c, &reference, 1, out) });
+        value.clear();
+        if done.status <= Status::Warning as fmi2Status && !text.is_null() {
+            // SAFETY: FMI 2.0 keeps the string until the next call; it is copied here.
+            value.push_str(&unsafe { CStr::from_ptr(text) }.to_string_lossy());
+        }
+        done
+    }
+    fn set_integer(&mut self, reference: u32, value: i32) -> Answer {
+        let set = function!(self.set_integer);
+        // SAFETY: a live instance and arrays of one item.
+        self.call(|_, c| unsafe { set(c, &reference, 1, &value) })
+    }
+    fn set_boolean(&mut self, reference: u32, value: bool) -> Answer {
+        let set = function!(self.set_boolean);
+        let value = fmi2Boolean::from(value);
+        // SAFETY: a live instance and arrays of one item.
+        self.call(|_, c| unsafe { set(c, &reference, 1, &value) })
+    }
+    fn set_string(&mut self, reference: u32, value: &str) -> Answer {
+        let set = function!(self.set_string);
+        let value = CString::new(value).unwrap_or_default();
+        // SAFETY: a live instance and arrays of one item.
+        self.call(|_, c| unsafe { set(c, &reference, 1, &value.as_ptr()) })
+    }
+
+    fn get_state(&mut self, handle: &mut Handle) -> Answer {
+        let get = function!(self.get_state);
+        let mut state = *handle as fmi2FMUstate;
+        let place = &raw mut state;
+        // SAFETY: a live instance; the handle is null or of this instance.
+        let done = self.call(|_, c| unsafe { get(c, place) });
+        *handle = state as Handle;
+        done
+    }
+    fn set_state(&mut self, handle: Handle) -> Answer {
+        let set = function!(self.set_state);
+        // SAFETY: a live instance and a state of it.
+        self.call(|_, c| unsafe { set(c, handle as fmi2FMUstate) })
+    }
+    fn free_state(&mut self, handle: &mut Handle) -> Answer {
+        let free = function!(self.free_state);
+        let mut state = std::mem::take(handle) as fmi2FMUstate;
+        let place = &raw mut state;
+        // SAFETY: a live instance and a state of it, freed once.
+        self.call(|_, c| unsafe { free(c, place) })
+    }
+    fn serialize(&mut self, handle: Handle, bytes: &mut Vec<u8>) -> Answer {
+        let (size_of, serialize) = (function!(self.serialized_size), function!(self.serialize_state));
+        let mut size = 0;
+        let place = &raw mut size;
+        // SAFETY: a live instance and a state of it.
+        let sized = self.call(|_, c| unsafe { size_of(c, handle as fmi2FMUstate, place) });
+        if sized.status > Status::Warning as fmi2Status {
+            return sized;
+        }
+        bytes.clear();
+        bytes.resize(size, 0);
+        let out = bytes.as_mut_ptr().cast();
+        // SAFETY: a live instance, a state of it, and room for what it says it needs.
+        self.call(|_, c| unsafe { serialize(c, handle as fmi2FMUstate, out, size) })
+    }
+    fn deserialize(&mut self, bytes: &[u8], handle: &mut Handle) -> Answer {
+        let deserialize = function!(self.deserialize_state);
+        let mut state = *handle as fmi2FMUstate;
+        let place = &raw mut state;
+        // SAFETY: a live instance, the bytes, and a handle that is null or of this instance.
+        let done = self.call(|_, c| unsafe { deserialize(c, bytes.as_ptr().cast(), bytes.len(), place) });
+        *handle = state as Handle;
+        done
+    }
+}
