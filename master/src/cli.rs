@@ -114,6 +114,9 @@ pub struct Run {
     /// Use this FMU as the bridge instead of building one
     #[arg(long, value_name = "FMU")]
     pub bridge: Option<PathBuf>,
+    /// How the given bridge's variables belong to ours; `ttb inspect FMU --map` proposes one
+    #[arg(long, value_name = "FILE", requires = "bridge")]
+    pub map: Option<PathBuf>,
     /// Run FMUs in processes of their own: should one crash or hang, the results so far are kept
     ///
     /// Without value: the FMUs given by --bridge and --train-track, or both of an .ssp file. What such an FMU prints goes

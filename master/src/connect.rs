@@ -10,6 +10,7 @@ use ttb_scenario::types::{CouplingSettings, Send};
 
 use crate::error::Error;
 use crate::isolate::{self, Isolated};
+use crate::map::Map;
 
 /// Both FMUs in initialization mode, and their coupling.
 pub struct Connected {
@@ -44,11 +45,24 @@ pub struct Wiring {
 }
 
 /// Loads both FMUs, enters initialization mode, connects.
-pub fn connect(train_track: &Path, bridge: &Path, checked: &Checked, isolated: &Isolated) -> Result<Connected, Error> {
+///
+/// Variables of equal name belong together, or those that `map` names.
+pub fn connect(
+    train_track: &Path,
+    bridge: &Path,
+    checked: &Checked,
+    isolated: &Isolated,
+    map: Option<&Map>,
+) -> Result<Connected, Error> {
     let end = checked.train_track.end;
     let train_track = isolate::open(train_track, isolated.train_track.as_ref())?;
     let train_track = instantiate(&train_track, "TrainTrack", end)?;
     let bridge = instantiate(&isolate::open(bridge, isolated.bridge.as_ref())?, "Bridge", end)?;
+    if let Some(map) = map {
+        let wiring = map.wiring(train_track.description(), bridge.description())?;
+        let warnings = checked.warnings.clone();
+        return couple(train_track, bridge, &wiring, &checked.scenario.coupling, checked.axle_load, warnings);
+    }
     let forces = shared(train_track.description(), bridge.description());
     let motions = shared(bridge.description(), train_track.description());
     let mut warnings = checked.warnings.clone();

@@ -17,6 +17,7 @@ use crate::coupled::CouplingReport;
 use crate::error::Error;
 use crate::isolate::Isolated;
 use crate::job::Job;
+use crate::map::Map;
 use crate::peaks::Peaks;
 use crate::plot::Plot;
 use crate::record::Recorder;
@@ -41,12 +42,13 @@ fn run_scenario(arguments: &Run, isolated: &Isolated) -> Result<(), Error> {
     for given in [&arguments.train_track, &arguments.bridge].into_iter().flatten() {
         std::fs::File::open(given).map_err(|e| Error::Input(format!("{}: {e}", given.display())))?;
     }
+    let map = arguments.map.as_deref().map(Map::load).transpose()?;
     let folder = &arguments.output;
     std::fs::create_dir_all(folder).map_err(Error::io(folder))?;
     let train_track = arguments.train_track.clone().map_or_else(|| build::train_track(&checked, folder), Ok)?;
     let bridge = arguments.bridge.clone().map_or_else(|| build::bridge(&checked, folder), Ok)?;
     let (stop, begin) = (stop_on_interrupt(), Instant::now());
-    let connected = connect(&train_track, &bridge, &checked, isolated)?;
+    let connected = connect(&train_track, &bridge, &checked, isolated, map.as_ref())?;
     for warning in &connected.warnings[checked.warnings.len()..] {
         eprintln!("ttb: warning: {warning}");
     }

@@ -38,7 +38,7 @@ def imported(request, examples, tmp_path_factory):
 
 
 def test_the_train_feels_the_beam_of_r1(imported, ttb, examples):
-    """issue: the same train response as the built-in elements within 0.5 %; here at every instant, of the peak."""
+    """The same response as over the built-in elements, within 0.5 % of the greatest value at every instant."""
     ttb("run", imported / "scenario.json", "-o", imported / "out", "--quiet")
     ttb("run", examples / "r1.json", "-o", imported / "r1", "--quiet")
     theirs, ours = (pandas.read_csv(imported / run / "results.csv") for run in ("out", "r1"))

@@ -47,6 +47,16 @@ enum Equations {
     Reduced { omega2: Vec<f64>, rows: Vec<f64> },
 }
 
+/// What a file gives back.
+pub struct Restored {
+    /// The equations.
+    pub system: Arc<dyn System>,
+    /// R.
+    pub rows: Rows,
+    /// The matrices, unless the model is reduced.
+    pub pencil: Option<Arc<Pencil>>,
+}
+
 /// A system to store.
 pub enum Source {
     /// All degrees of freedom.
@@ -120,7 +130,7 @@ impl Stored {
     ///
     /// # Errors
     /// Numbers that do not fit together.
-    pub fn system(&mut self) -> Result<(Arc<dyn System>, Rows, Option<Arc<Pencil>>), ModelError> {
+    pub fn system(&mut self) -> Result<Restored, ModelError> {
         let damaged = |why: &str| ModelError(format!("{FILE} is damaged: {why}"));
         let none = Equations::Reduced { omega2: Vec::new(), rows: Vec::new() };
         let (system, rows, pencil): (Arc<dyn System>, _, _) = match std::mem::replace(&mut self.equations, none) {
@@ -150,6 +160,6 @@ impl Stored {
         if self.supports > rows.len() || seen.max().is_some_and(|row| row >= rows.len()) {
             return Err(damaged("there are fewer rows than supports and points"));
         }
-        Ok((system, rows, pencil))
+        Ok(Restored { system, rows, pencil })
     }
 }

@@ -18,7 +18,7 @@ use crate::full::Full;
 use crate::reduced::Reduced;
 use crate::reduction::{self, Accuracy};
 use crate::rows::Rows;
-use crate::stored::{Source, Stored};
+use crate::stored::{Restored, Source, Stored};
 use crate::system::{Law, System};
 use crate::{imported, plane, space};
 
@@ -130,7 +130,7 @@ impl Structure {
 
     fn stored(spec: &BridgeSpec, folder: &Path) -> Result<Self, ModelError> {
         let mut stored = Stored::read(folder)?;
-        let (system, rows, pencil) = stored.system()?;
+        let Restored { system, rows, pencil } = stored.system()?;
         let Stored { ndof, mass, omega2, supports, points, accuracy, .. } = stored;
         let (damping, rows) = (spec.damping.clone(), Arc::new(rows));
         Ok(Self { ndof, mass, pencil, omega2, damping, system, rows, supports, points, accuracy, source: None })
