@@ -20,8 +20,6 @@ use crate::vector::dot;
 
 /// Vectors in a block.
 const BLOCK: usize = 16;
-/// A vector whose square shrinks below this part of itself has lost digits to what was taken away.
-const MUCH: f64 = 1e-4;
 /// Squares below this part of what they were before the orthogonalisation are rounding.
 const ROUNDING: f64 = 1e-22;
 /// Residual of A φ = θ φ relative to θ at which a mode is taken as found.
@@ -78,26 +76,20 @@ impl<'a> Krylov<'a> {
         let (n, width) = (self.n, block.len() / self.n);
         let known = self.basis.len() / n;
         let mut coefficients = vec![vec![0.0; known]; width];
-        // First against the last two blocks, where A Q_j mostly lies, then against all, and once more only if that took
-        // much away: as good as twice against all, at half the work (Parlett, The Symmetric Eigenvalue Problem, 1998,
-        // sections 6.9 and 13.8).
-        let (mut sizes, mut whole) = (vec![0.0; width], 0.0);
-        for (pass, from) in [known.saturating_sub(2 * BLOCK), 0, 0].into_iter().enumerate() {
+        // Twice is enough (Parlett, The Symmetric Eigenvalue Problem, 1998, section 6.9).
+        let mut whole = 0.0;
+        for pass in 0..2 {
             let mass = self.mass(&block);
-            let now: Vec<f64> = block.chunks_exact(n).zip(mass.chunks_exact(n)).map(|(x, y)| dot(x, y)).collect();
-            if pass == 2 && now.iter().zip(&sizes).all(|(now, before)| *now > MUCH * before) {
-                break;
-            }
-            sizes = now;
             if pass == 0 {
-                whole = sizes.iter().fold(0.0, |m: f64, x| m.max(*x));
+                let sizes = block.chunks_exact(n).zip(mass.chunks_exact(n)).map(|(x, y)| dot(x, y));
+                whole = sizes.fold(0.0, f64::max);
             }
-            let q = MatRef::from_column_major_slice(&self.basis[from * n..], n, known - from);
+            let q = MatRef::from_column_major_slice(&self.basis, n, known);
             let c = inner(q, MatRef::from_column_major_slice(&mass, n, width));
             let rest = MatMut::from_column_major_slice_mut(&mut block, n, width);
             matmul(rest, Accum::Add, q, c.as_ref(), -1.0, Par::Seq);
             for (column, sums) in coefficients.iter_mut().enumerate() {
-                sums[from..].iter_mut().enumerate().for_each(|(i, sum)| *sum += c[(i, column)]);
+                sums.iter_mut().enumerate().for_each(|(i, sum)| *sum += c[(i, column)]);
             }
         }
         // Inside the block: G = XᵀMX = V diag(g) Vᵀ; directions without mass of their own are dropped.
@@ -161,9 +153,13 @@ impl<'a> Krylov<'a> {
     /// All modes up to `highest` (rad/s) that the loads excite, or as many as fit into `most` vectors.
     pub fn modes(&mut self, highest: f64, most: usize) -> Ritz {
         let theta = 1.0 / (highest * highest);
+        let mut first = true;
         loop {
-            // A look costs a dense eigenproblem: not after every block.
-            self.advance(4 + self.t.len() / (3 * BLOCK));
+            if self.t.is_empty() || !first {
+                // A look costs a dense eigenproblem: not after every block.
+                self.advance(4 + self.t.len() / (3 * BLOCK));
+            }
+            first = false;
             let p = self.t.len();
             let t = Mat::from_fn(p, p, |i, j| self.t[i.max(j)].get(i.min(j)).copied().unwrap_or(0.0));
             let Ok(eigen) = t.self_adjoint_eigen(Side::Lower) else {

@@ -63,7 +63,7 @@ fn faults_between_fields_are_all_found() {
                 &[
                     ("$.bridge.points[0]", X_OR_NODE),
                     ("$.bridge.points[1]", X_OR_NODE),
-                    ("$.bridge.points[2].node", "only frames have named nodes: give x"),
+                    ("$.bridge.points[2].node", "only frames and models in space have named nodes: give x"),
                     ("$.bridge.points[3].name", "names of points must differ"),
                     ("$.bridge.points[3].direction", "motion along the track is known at nodes only"),
                 ],
