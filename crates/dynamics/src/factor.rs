@@ -28,6 +28,14 @@ pub enum FactorError {
     Symbolic(String),
 }
 
+impl FactorError {
+    /// From faer's number of a bad pivot, which counts from 1, and the degrees of freedom in the order of elimination.
+    pub(crate) fn at_pivot(number: usize, order: &[u32]) -> Self {
+        let row = number.saturating_sub(1);
+        Self::NotPositive { dof: order.get(row).map_or(row, |dof| *dof as usize) }
+    }
+}
+
 /// A pivot below this times its diagonal entry is rounding, not stiffness. The bending of a beam of n elements leaves
 /// about 2/n³, which is still larger for 25,000 elements.
 const LEAST_PIVOT: f64 = 1e-13;
@@ -48,12 +56,12 @@ pub struct Layout {
 }
 
 /// Order and pattern of the factor.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub enum Symbolic {
     /// By columns.
-    Simplicial(simplicial::Pattern),
+    Simplicial(Arc<simplicial::Pattern>),
     /// By panels.
-    Supernodal(Pattern),
+    Supernodal(Arc<Pattern>),
 }
 
 impl Symbolic {
@@ -63,12 +71,11 @@ impl Symbolic {
     /// [`FactorError::Symbolic`] when memory or indices do not suffice.
     pub fn new(pattern: SymbolicSparseColMatRef<'_, u32>, layout: &Layout) -> Result<Self, FactorError> {
         if pattern.ncols() < LARGE {
-            return Ok(Self::Simplicial(simplicial::Pattern::new(pattern)?));
+            return Ok(Self::Simplicial(Arc::new(simplicial::Pattern::new(pattern)?)));
         }
-        if layout.order.len() == pattern.ncols() {
-            return Ok(Self::Supernodal(Pattern::new(pattern, layout.order.clone())?));
-        }
-        Ok(Self::Supernodal(best(pattern, layout)?))
+        let known = layout.order.len() == pattern.ncols();
+        let found = if known { Pattern::new(pattern, layout.order.clone())? } else { best(pattern, layout)? };
+        Ok(Self::Supernodal(Arc::new(found)))
     }
 
     /// Number of negative eigenvalues of `a` (Sylvester's law of inertia).
@@ -118,7 +125,7 @@ fn best(pattern: SymbolicSparseColMatRef<'_, u32>, layout: &Layout) -> Result<Pa
         return Ok(by_degree);
     }
     let dissected = finish(nested_dissection(&graph, &layout.place))?;
-    Ok(if dissected.all_entries() < by_degree.all_entries() { dissected } else { by_degree })
+    Ok(if dissected.entries() < by_degree.entries() { dissected } else { by_degree })
 }
 
 /// Approximate minimum degree of the nodes' graph.
@@ -134,17 +141,13 @@ fn minimum_degree(graph: &Graph) -> Result<Vec<u32>, FactorError> {
     Ok(found.perm().map_or_else(|| (0..graph.nodes() as u32).collect(), |perm| perm.arrays().0.to_vec()))
 }
 
-/// A factor.
+/// A factor: pattern and numbers.
 #[derive(Clone, Debug)]
-pub struct Factor {
-    symbolic: Arc<Symbolic>,
-    numbers: FactorNumbers,
-}
-
-#[derive(Clone, Debug)]
-enum FactorNumbers {
-    Simplicial(simplicial::Numbers),
-    Supernodal(Numbers),
+pub enum Factor {
+    /// By columns.
+    Simplicial(Arc<simplicial::Pattern>, simplicial::Numbers),
+    /// By panels.
+    Supernodal(Arc<Pattern>, Numbers),
 }
 
 impl Factor {
@@ -152,54 +155,50 @@ impl Factor {
     ///
     /// # Errors
     /// [`FactorError::NotPositive`] when it is not positive definite by a margin above rounding.
-    pub fn positive(symbolic: &Arc<Symbolic>, a: SparseColMatRef<'_, u32, f64>) -> Result<Self, FactorError> {
-        let numbers = match &**symbolic {
-            Symbolic::Simplicial(pattern) => FactorNumbers::Simplicial(pattern.factorise_positive(a, LEAST_PIVOT)?),
-            Symbolic::Supernodal(pattern) => FactorNumbers::Supernodal(pattern.factorise(a, LEAST_PIVOT)?),
-        };
-        Ok(Self { symbolic: Arc::clone(symbolic), numbers })
+    pub fn positive(symbolic: &Symbolic, a: SparseColMatRef<'_, u32, f64>) -> Result<Self, FactorError> {
+        Ok(match symbolic {
+            Symbolic::Simplicial(pattern) => {
+                Self::Simplicial(Arc::clone(pattern), pattern.factorise_positive(a, LEAST_PIVOT)?)
+            }
+            Symbolic::Supernodal(pattern) => Self::Supernodal(Arc::clone(pattern), pattern.factorise(a, LEAST_PIVOT)?),
+        })
     }
 
     /// Numbers of the factor: what one sweep reads.
     pub fn entries(&self) -> usize {
-        match (&*self.symbolic, &self.numbers) {
-            (_, FactorNumbers::Simplicial(numbers)) => numbers.entries(),
-            (Symbolic::Supernodal(pattern), _) => pattern.all_entries(),
-            _ => 0,
+        match self {
+            Self::Simplicial(_, numbers) => numbers.entries(),
+            Self::Supernodal(pattern, _) => pattern.entries(),
         }
     }
 
     /// Number of degrees of freedom.
     pub fn dimension(&self) -> usize {
-        match &*self.symbolic {
-            Symbolic::Simplicial(pattern) => pattern.dimension(),
-            Symbolic::Supernodal(pattern) => pattern.order.len(),
+        match self {
+            Self::Simplicial(pattern, _) => pattern.dimension(),
+            Self::Supernodal(pattern, _) => pattern.order.len(),
         }
     }
 
     /// x ← A⁻¹ x; `scratch` has the length of `x` and is overwritten.
     pub fn solve_in_place(&self, x: &mut [f64], scratch: &mut [f64]) {
-        match (&*self.symbolic, &self.numbers) {
-            (Symbolic::Simplicial(pattern), FactorNumbers::Simplicial(numbers)) => {
-                pattern.solve_in_place(numbers, x, scratch);
-            }
-            (Symbolic::Supernodal(pattern), FactorNumbers::Supernodal(numbers)) => {
+        match self {
+            Self::Simplicial(pattern, numbers) => pattern.solve_in_place(numbers, x, scratch),
+            Self::Supernodal(pattern, numbers) => {
                 let mut buffer = Vec::new();
                 pattern.gather(x, scratch);
                 pattern.forward(numbers, scratch, &mut buffer, Which::All);
                 pattern.backward(numbers, scratch, &mut buffer, Which::All);
                 pattern.scatter(scratch, x);
             }
-            // A factor and its pattern are made together, in `positive`.
-            _ => {}
         }
     }
 
     /// Pattern and numbers by panels, of a large model.
     pub fn panels(&self) -> Option<(&Pattern, &Numbers)> {
-        match (&*self.symbolic, &self.numbers) {
-            (Symbolic::Supernodal(pattern), FactorNumbers::Supernodal(numbers)) => Some((pattern, numbers)),
-            _ => None,
+        match self {
+            Self::Simplicial(..) => None,
+            Self::Supernodal(pattern, numbers) => Some((pattern, numbers)),
         }
     }
 }

@@ -15,6 +15,7 @@ use faer::{Accum, Mat, MatMut, MatRef, Par, Side};
 
 use crate::blocks::{inner, solve};
 use crate::factor::Factor;
+use crate::random::Random;
 use crate::sparse::Pencil;
 use crate::vector::dot;
 
@@ -52,12 +53,10 @@ impl<'a> Krylov<'a> {
         let n = pencil.ndof();
         let mut this = Self { pencil, stiffness, n, basis: Vec::new(), t: Vec::new(), complete: false };
         let mut block = vec![0.0; n * BLOCK];
-        let mut random = 1_u64;
+        let mut random = Random::default();
         for load in loads {
             for column in 0..BLOCK {
-                // Deterministic: a linear congruence (Knuth, The Art of Computer Programming 2, 1998, section 3.3.4).
-                random = random.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-                let weight = (random >> 11) as f64 / (1_u64 << 52) as f64 - 1.0;
+                let weight = random.draw();
                 load.iter().for_each(|(dof, w)| block[column * n + *dof as usize] += weight * w);
             }
         }

@@ -14,6 +14,7 @@ pub mod modes;
 pub mod newmark;
 pub mod order;
 pub mod pool;
+mod random;
 pub mod reduction;
 pub mod simplicial;
 pub mod sparse;

@@ -14,6 +14,7 @@
 use nalgebra::{DMatrix, SymmetricEigen};
 
 use crate::factor::Factor;
+use crate::random::Random;
 use crate::sparse::Pencil;
 use crate::vector::{add_scaled, dot};
 
@@ -83,14 +84,14 @@ struct Lanczos<'a> {
     basis: Vec<Vec<f64>>,
     /// t_ij by columns j, over the basis as it was when v_j was processed.
     t: Vec<Vec<f64>>,
-    random: u64,
+    random: Random,
     scratch: Vec<f64>,
 }
 
 impl<'a> Lanczos<'a> {
     fn new(pencil: &'a Pencil, stiffness: &'a Factor) -> Self {
         let scratch = vec![0.0; pencil.ndof()];
-        Self { pencil, stiffness, basis: Vec::new(), t: Vec::new(), random: 0, scratch }
+        Self { pencil, stiffness, basis: Vec::new(), t: Vec::new(), random: Random::default(), scratch }
     }
 
     /// M x.
@@ -110,7 +111,7 @@ impl<'a> Lanczos<'a> {
     /// Adds start vectors to the queue, as many as the space still has room for.
     fn invite(&mut self, vectors: usize) {
         for _ in 0..vectors {
-            let x: Vec<f64> = (0..self.pencil.ndof()).map(|_| self.draw()).collect();
+            let x: Vec<f64> = (0..self.pencil.ndof()).map(|_| self.random.draw()).collect();
             // One application of A takes out what has no mass.
             let x = self.operator(&x);
             self.admit(x);
@@ -188,15 +189,6 @@ impl<'a> Lanczos<'a> {
         });
         let shapes = shapes.collect();
         Some(Modes { omega2: omega2[..count].to_vec(), shapes })
-    }
-
-    /// Uniform in [−1, 1): splitmix64 (Steele, Lea & Flood, OOPSLA 2014).
-    fn draw(&mut self) -> f64 {
-        self.random = self.random.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.random;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
     }
 }
 

@@ -101,10 +101,7 @@ impl Pattern {
                 MemStack::new(&mut memory),
                 Default::default(),
             )
-            .map_err(|LdltError::ZeroPivot { index }| {
-                let row = index.saturating_sub(1); // faer counts pivots from 1
-                FactorError::NotPositive { dof: self.order.get(row).map_or(row, |dof| *dof as usize) }
-            })?;
+            .map_err(|LdltError::ZeroPivot { index }| FactorError::at_pivot(index, &self.order))?;
         let (mut l, mut inverse_d) = (Vec::with_capacity(self.rows.len()), Vec::with_capacity(self.order.len()));
         let mut values = values.into_iter();
         for column in self.starts.windows(2) {

@@ -4,8 +4,6 @@
 //! combination c_K K + c_M M + c_C C that a time integrator or an eigenvalue solver factorises has it too: the ordering and the
 //! symbolic factorisation are made once, see [`Pencil::factor`].
 
-use std::sync::Arc;
-
 use faer::sparse::{SparseColMatRef, SymbolicSparseColMat};
 
 use crate::factor::{Factor, FactorError, Layout, Symbolic};
@@ -109,7 +107,7 @@ impl Assembly {
         let mass = Symmetric::new(self.n, entries.into_iter().map(|e| Entry { k: e.m, ..e }));
         let damping = Symmetric::new(self.n, damping.into_iter());
         let pattern = SymbolicSparseColMat::new_checked(self.n, self.n, starts, None, rows);
-        let symbolic = Arc::new(Symbolic::new(pattern.as_ref(), layout)?);
+        let symbolic = Symbolic::new(pattern.as_ref(), layout)?;
         Ok(Pencil { pattern, k, m, mass, damping, symbolic })
     }
 }
@@ -156,6 +154,16 @@ impl Symmetric {
         }
         (0..n).for_each(|j| this.starts[j + 1] += this.starts[j]);
         this
+    }
+
+    /// Row, column, number of every entry, by columns.
+    fn entries(&self) -> impl Iterator<Item = (u32, u32, f64)> {
+        let Self { starts, rows, values } = self;
+        let columns = starts.windows(2).zip(0..);
+        columns.flat_map(move |(ends, j)| {
+            let column = ends[0] as usize..ends[1] as usize;
+            rows[column.clone()].iter().zip(&values[column]).map(move |(&i, &value)| (i, j, value))
+        })
     }
 
     /// y ← y + A x.
@@ -215,7 +223,7 @@ pub struct Pencil {
     m: Vec<f64>,
     mass: Symmetric,
     damping: Symmetric,
-    symbolic: Arc<Symbolic>,
+    symbolic: Symbolic,
 }
 
 impl Pencil {
@@ -243,32 +251,14 @@ impl Pencil {
     pub fn add_damping(&self, x: &[f64], y: &mut [f64]) {
         self.damping.add_product(x, y);
     }
-    /// Entries of C, lower triangle: row, column, number.
-    pub fn damping_entries(&self) -> impl Iterator<Item = (u32, u32, f64)> {
-        let Symmetric { starts, rows, values } = &self.damping;
-        (0..self.ndof()).flat_map(move |j| {
-            let column = starts[j] as usize..starts[j + 1] as usize;
-            rows[column.clone()].iter().zip(&values[column]).map(move |(&i, &c)| (i, j as u32, c))
-        })
-    }
     /// M over degrees of freedom in another order, number i becoming `position[i]`, for several vectors at once.
     pub fn mass_in(&self, position: &[u32]) -> Product {
-        let Symmetric { starts, rows, values } = &self.mass;
-        let columns = (0..self.ndof()).flat_map(|j| {
-            let column = starts[j] as usize..starts[j + 1] as usize;
-            rows[column.clone()].iter().zip(&values[column]).map(move |(&i, &m)| (i, j, m))
-        });
-        let moved = columns.map(|(i, j, m)| {
-            let [i, j] = [position[i as usize], position[j]];
+        let moved = self.mass.entries().map(|(i, j, m)| {
+            let [i, j] = [i, j].map(|dof| position[dof as usize]);
             Entry { column: i.min(j), row: i.max(j), k: m, m: 0.0 }
         });
         let entries = merged(moved.collect());
         Product(Symmetric::new(self.ndof(), entries.into_iter()))
-    }
-    /// Diagonals of K and M.
-    pub fn diagonals(&self) -> impl Iterator<Item = (f64, f64)> {
-        let starts = self.pattern.col_ptr();
-        starts[..self.ndof()].iter().map(|&at| (self.k[at as usize], self.m[at as usize]))
     }
     /// The order of elimination, once found, for [`Layout::order`]; `None` where a small model makes its own.
     pub fn order(&self) -> Option<&[u32]> {
@@ -298,7 +288,7 @@ impl Pencil {
     pub fn raw(&self) -> Raw {
         let order = self.order().unwrap_or_default().to_vec();
         let (starts, rows) = (self.pattern.col_ptr().to_vec(), self.pattern.row_idx().to_vec());
-        Raw { starts, rows, k: self.k.clone(), m: self.m.clone(), damping: self.damping_entries().collect(), order }
+        Raw { starts, rows, k: self.k.clone(), m: self.m.clone(), damping: self.damping.entries().collect(), order }
     }
 
     /// From what was stored.
@@ -337,7 +327,7 @@ impl Pencil {
         let masses = by_columns.map(|(at, j)| Entry { column: j as u32, row: rows[at], k: m[at], m: 0.0 });
         let mass = Symmetric::new(n, masses);
         let pattern = SymbolicSparseColMat::new_checked(n, n, starts, None, rows);
-        let symbolic = Arc::new(Symbolic::new(pattern.as_ref(), &Layout { order, ..Layout::default() })?);
+        let symbolic = Symbolic::new(pattern.as_ref(), &Layout { order, ..Layout::default() })?;
         Ok(Self { pattern, k, m, mass, damping, symbolic })
     }
 
@@ -348,7 +338,7 @@ impl Pencil {
     /// values ← values + factor C.
     fn add_to_pattern(&self, factor: f64, values: &mut [f64]) {
         let (starts, rows) = (self.pattern.col_ptr(), self.pattern.row_idx());
-        for (i, j, c) in self.damping_entries() {
+        for (i, j, c) in self.damping.entries() {
             let column = starts[j as usize] as usize..starts[j as usize + 1] as usize;
             if let Ok(at) = rows[column.clone()].binary_search(&i) {
                 values[column.start + at] += factor * c;

@@ -3,8 +3,9 @@
 //! faer computes the numbers; the order is [`crate::order`]'s and the sweeps are [`crate::sweeps`]'.
 
 use faer::Par;
-use faer::dyn_stack::{MemBuffer, MemStack};
+use faer::dyn_stack::{MemBuffer, MemStack, StackReq};
 use faer::linalg::cholesky::ldlt::factor::{LdltError, LdltRegularization};
+use faer::linalg::cholesky::llt::factor::LltError;
 use faer::perm::PermRef;
 use faer::sparse::linalg::cholesky::{
     CholeskySymbolicParams, SymbolicCholesky, SymbolicCholeskyRaw, SymmetricOrdering, factorize_symbolic_cholesky,
@@ -125,15 +126,15 @@ impl Pattern {
         self.columns.partition_point(|&begin| begin <= row) - 1
     }
 
-    /// Numbers of L in these panels: what a sweep over them reads.
-    pub fn entries(&self, which: &[u32]) -> usize {
-        which.iter().map(|&s| self.value_starts[s as usize + 1] - self.value_starts[s as usize]).sum()
-    }
-
     /// Numbers of L in all panels.
-    pub fn all_entries(&self) -> usize {
+    pub fn entries(&self) -> usize {
         self.value_starts.last().copied().unwrap_or(0)
     }
+}
+
+/// Memory that faer works in.
+fn scratch(size: StackReq) -> Result<MemBuffer, FactorError> {
+    MemBuffer::try_new(size).map_err(|_| FactorError::Symbolic("there is not enough memory".into()))
 }
 
 /// The numbers of a factor.
@@ -151,8 +152,7 @@ impl Pattern {
     pub fn factorise(&self, a: SparseColMatRef<'_, u32, f64>, least_pivot: f64) -> Result<Numbers, FactorError> {
         let (cholesky, par) = (&self.cholesky, Par::Seq);
         let mut values = vec![0.0; cholesky.len_val()];
-        let mut memory = MemBuffer::try_new(cholesky.factorize_numeric_llt_scratch::<f64>(par, Default::default()))
-            .map_err(|_| FactorError::Symbolic("there is not enough memory".into()))?;
+        let mut memory = scratch(cholesky.factorize_numeric_llt_scratch::<f64>(par, Default::default()))?;
         cholesky
             .factorize_numeric_llt(
                 &mut values,
@@ -163,9 +163,7 @@ impl Pattern {
                 MemStack::new(&mut memory),
                 Default::default(),
             )
-            .map_err(|faer::linalg::cholesky::llt::factor::LltError::NonPositivePivot { index }| {
-                FactorError::NotPositive { dof: self.order.get(index.saturating_sub(1)).map_or(0, |dof| *dof as usize) }
-            })?;
+            .map_err(|LltError::NonPositivePivot { index }| FactorError::at_pivot(index, &self.order))?;
         let mut inverse_diagonal = Vec::with_capacity(self.order.len());
         for (column, diagonal) in self.diagonal().enumerate() {
             let l = values[diagonal];
@@ -187,8 +185,7 @@ impl Pattern {
     pub fn count_negative(&self, a: SparseColMatRef<'_, u32, f64>) -> Result<usize, FactorError> {
         let (cholesky, par) = (&self.cholesky, Par::Seq);
         let mut values = vec![0.0; cholesky.len_val()];
-        let mut memory = MemBuffer::try_new(cholesky.factorize_numeric_ldlt_scratch::<f64>(par, Default::default()))
-            .map_err(|_| FactorError::Symbolic("there is not enough memory".into()))?;
+        let mut memory = scratch(cholesky.factorize_numeric_ldlt_scratch::<f64>(par, Default::default()))?;
         cholesky
             .factorize_numeric_ldlt(
                 &mut values,
@@ -199,9 +196,7 @@ impl Pattern {
                 MemStack::new(&mut memory),
                 Default::default(),
             )
-            .map_err(|LdltError::ZeroPivot { index }| FactorError::NotPositive {
-                dof: self.order.get(index.saturating_sub(1)).map_or(0, |dof| *dof as usize),
-            })?;
+            .map_err(|LdltError::ZeroPivot { index }| FactorError::at_pivot(index, &self.order))?;
         Ok(self.diagonal().filter(|&at| values[at] < 0.0).count())
     }
 
