@@ -204,7 +204,7 @@ impl Structure {
 }
 
 /// The supports' degrees of freedom, if eliminating them last adds little to the factor.
-fn eliminated_last(supports: &[Row], ndof: usize) -> Vec<u32> {
+pub fn eliminated_last(supports: &[Row], ndof: usize) -> Vec<u32> {
     let mut dofs: Vec<u32> = supports.iter().flatten().map(|(dof, _)| *dof).collect();
     dofs.sort_unstable();
     dofs.dedup();
