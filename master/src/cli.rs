@@ -126,6 +126,9 @@ pub struct Run {
     /// Longest time a call of an isolated FMU may take [default: 60]
     #[arg(long, value_name = "SECONDS", requires = "isolate", allow_negative_numbers = true)]
     pub timeout: Option<f64>,
+    /// Skip the trial steps before the run that test roll-back, signs and units of the FMUs
+    #[arg(long)]
+    pub no_probe: bool,
     /// No progress, no summary
     #[arg(short, long)]
     pub quiet: bool,

@@ -3,8 +3,10 @@
 use std::collections::HashSet;
 use std::path::Path;
 
+use ttb_coupling::probe::Probe;
 use ttb_coupling::{Coupling, Subsystem};
-use ttb_fmi2::import::{Fmu, FmuInstance, FmuSubsystem, Linear, ModelDescription, VariableType};
+use ttb_fmi2::import::{Another, Fmu, FmuError, FmuInstance, FmuSubsystem, Linear, ModelDescription, VariableType};
+use ttb_fmi2::isolate::Isolation;
 use ttb_scenario::Checked;
 use ttb_scenario::types::{CouplingSettings, Send};
 
@@ -22,9 +24,44 @@ pub struct Connected {
     pub coupling: Coupling,
     /// What was noticed.
     pub warnings: Vec<String>,
+    /// How they are connected.
+    pub wiring: Wiring,
+    /// What trial steps before the first one showed.
+    pub probe: Probe,
+}
+
+/// A bridge in initialization mode.
+pub struct Bridge {
+    /// It.
+    pub instance: FmuInstance,
+    /// Makes another one, which shares nothing with it.
+    pub another: Box<dyn Fn() -> Result<FmuInstance, Error> + std::marker::Send>,
+    /// Whether there may be several in this process.
+    pub several: bool,
+    /// Whether to believe that it saves and restores its state.
+    pub trusted: bool,
+}
+
+impl Bridge {
+    /// Of an FMU file, for a run to `end`.
+    pub fn open(
+        path: &Path,
+        name: &str,
+        isolation: Option<&Isolation>,
+        end: f64,
+        trusted: bool,
+    ) -> Result<Self, Error> {
+        let (path, name, isolation) = (path.to_path_buf(), name.to_string(), isolation.cloned());
+        let apart = isolation.is_some();
+        let another = move || instantiate(&isolate::open(&path, isolation.as_ref())?, &name, end);
+        let instance = another()?;
+        let several = apart || !instance.description().co_simulation.can_be_instantiated_only_once_per_process;
+        Ok(Self { instance, another: Box::new(another), several, trusted })
+    }
 }
 
 /// A connected pair of variables, and the lines between each of them and the iteration.
+#[derive(Clone)]
 pub struct Wire {
     /// An output of one FMU.
     pub output: String,
@@ -37,6 +74,7 @@ pub struct Wire {
 }
 
 /// All connections.
+#[derive(Clone)]
 pub struct Wiring {
     /// From the train–track side to the bridge.
     pub forces: Vec<Wire>,
@@ -46,22 +84,25 @@ pub struct Wiring {
 
 /// Loads both FMUs, enters initialization mode, connects.
 ///
-/// Variables of equal name belong together, or those that `map` names.
+/// Variables of equal name belong together, or those that `map` names. A bridge that is not `trusted` is taken for one that
+/// cannot roll back.
 pub fn connect(
     train_track: &Path,
     bridge: &Path,
     checked: &Checked,
     isolated: &Isolated,
     map: Option<&Map>,
+    trusted: bool,
 ) -> Result<Connected, Error> {
     let end = checked.train_track.end;
     let train_track = isolate::open(train_track, isolated.train_track.as_ref())?;
     let train_track = instantiate(&train_track, "TrainTrack", end)?;
-    let bridge = instantiate(&isolate::open(bridge, isolated.bridge.as_ref())?, "Bridge", end)?;
+    let offered = Bridge::open(bridge, "Bridge", isolated.bridge.as_ref(), end, trusted)?;
+    let bridge = &offered.instance;
     if let Some(map) = map {
         let wiring = map.wiring(train_track.description(), bridge.description())?;
         let warnings = checked.warnings.clone();
-        return couple(train_track, bridge, &wiring, &checked.scenario.coupling, checked.axle_load, warnings);
+        return couple(train_track, offered, wiring, &checked.scenario.coupling, checked.axle_load, warnings);
     }
     let forces = shared(train_track.description(), bridge.description());
     let motions = shared(bridge.description(), train_track.description());
@@ -79,13 +120,13 @@ pub fn connect(
             "{a} and {b} share no variable of equal name that is an input of one and an output of the other"
         )));
     }
-    refuse_strangers(&bridge, &train_track, &forces)?;
+    refuse_strangers(bridge, &train_track, &forces)?;
     if let Some(open) = unconnected(bridge.description(), &forces) {
         warnings.push(format!("{}: input {open} is connected to nothing and keeps its start value", bridge.name()));
     }
     let equal = |names: Vec<String>| names.into_iter().map(Wire::equal).collect();
     let wiring = Wiring { forces: equal(forces), motions: equal(motions) };
-    couple(train_track, bridge, &wiring, &checked.scenario.coupling, checked.axle_load, warnings)
+    couple(train_track, offered, wiring, &checked.scenario.coupling, checked.axle_load, warnings)
 }
 
 impl Wire {
@@ -98,8 +139,8 @@ impl Wire {
 /// Couples two FMUs in initialization mode by explicit wiring; `force_scale` is that of the tolerance, N.
 pub fn couple(
     train_track: FmuInstance,
-    bridge: FmuInstance,
-    wiring: &Wiring,
+    bridge: Bridge,
+    wiring: Wiring,
     coupling: &CouplingSettings,
     force_scale: f64,
     mut warnings: Vec<String>,
@@ -112,26 +153,36 @@ pub fn couple(
             train_track.name()
         )));
     }
-    if settings.max_iterations > 1 && !bridge.can_restore() {
+    let Bridge { instance: bridge, another, several, trusted } = bridge;
+    let name = bridge.name().to_string();
+    let rolls_back = trusted && bridge.can_restore();
+    if settings.max_iterations > 1 && !rolls_back {
+        let cannot =
+            if trusted { "cannot save and restore its state (canGetAndSetFMUstate)" } else { "is not rolled back" };
         warnings.push(format!(
-            "{} cannot save and restore its state (canGetAndSetFMUstate): its steps are taken once, without iteration; the \
-             summary estimates the error",
-            bridge.name()
+            "{name} {cannot}: its steps are taken once, without iteration; the summary estimates the error"
         ));
     }
     if coupling.send == Send::Rate && !bridge.can_interpolate() {
-        let name = bridge.name();
         return Err(Error::Input(format!(
             "coupling.send is rate, but {name} cannot interpolate inputs: use auto or mean"
         )));
     }
     let train_track = subsystem(train_track, &wiring.motions, &wiring.forces)?;
-    let bridge = subsystem(bridge, &wiring.forces, &wiring.motions)?;
+    let mut bridge = subsystem(bridge, &wiring.forces, &wiring.motions)?;
+    if !rolls_back {
+        let wires = wiring.clone();
+        let another: Another = Box::new(move || {
+            let impossible = |e: Error| FmuError::Impossible { instance: name.clone(), what: e.to_string() };
+            subsystem(another().map_err(impossible)?, &wires.forces, &wires.motions).map_err(impossible)
+        });
+        bridge = bridge.without_roll_back(several.then_some(another));
+    }
     if !train_track.can_interpolate() {
         warnings.push("the train–track FMU cannot interpolate inputs: the deck's motion is sent as held means".into());
     }
     let coupling = Coupling::new(wiring.forces.len(), wiring.motions.len(), settings);
-    Ok(Connected { train_track, bridge, coupling, warnings })
+    Ok(Connected { train_track, bridge, coupling, warnings, wiring, probe: Probe::default() })
 }
 
 /// One side, by the wires to it and from it.

@@ -22,6 +22,7 @@ mod job;
 mod map;
 mod peaks;
 mod plot;
+mod probe;
 mod record;
 mod run;
 mod series;

@@ -20,6 +20,7 @@ use crate::job::Job;
 use crate::map::Map;
 use crate::peaks::Peaks;
 use crate::plot::Plot;
+use crate::probe::judge;
 use crate::record::Recorder;
 use crate::summary::{Iterations, Seconds, Summary};
 use crate::system::{Opened, is_system};
@@ -48,11 +49,27 @@ fn run_scenario(arguments: &Run, isolated: &Isolated) -> Result<(), Error> {
     let train_track = arguments.train_track.clone().map_or_else(|| build::train_track(&checked, folder), Ok)?;
     let bridge = arguments.bridge.clone().map_or_else(|| build::bridge(&checked, folder), Ok)?;
     let (stop, begin) = (stop_on_interrupt(), Instant::now());
-    let connected = connect(&train_track, &bridge, &checked, isolated, map.as_ref())?;
-    for warning in &connected.warnings[checked.warnings.len()..] {
-        eprintln!("ttb: warning: {warning}");
+    let told = checked.warnings.len();
+    run_trusting(|trusted| {
+        let connected = connect(&train_track, &bridge, &checked, isolated, map.as_ref(), trusted)?;
+        warn(&connected.warnings[told..]);
+        run_connected(&Job::from(&checked), connected, arguments, &stop, begin)
+    })
+}
+
+/// Runs with a bridge as it describes itself; should it turn out that it does not roll back, as one that says so.
+fn run_trusting(run: impl Fn(bool) -> Result<(), Error>) -> Result<(), Error> {
+    match run(true) {
+        Err(Error::Lies(text)) => {
+            warn(&[text]);
+            run(false)
+        }
+        done => done,
     }
-    run_connected(&Job::from(&checked), connected, arguments, &stop, begin)
+}
+
+fn warn(warnings: &[String]) {
+    warnings.iter().for_each(|warning| eprintln!("ttb: warning: {warning}"));
 }
 
 fn run_system(path: &Path, arguments: &Run, isolated: &Isolated) -> Result<(), Error> {
@@ -63,12 +80,12 @@ fn run_system(path: &Path, arguments: &Run, isolated: &Isolated) -> Result<(), E
     }
     let (stop, begin) = (stop_on_interrupt(), Instant::now());
     let opened = Opened::open(path, isolated)?;
-    let connected = opened.connect()?;
-    for warning in &connected.warnings {
-        eprintln!("ttb: warning: {warning}");
-    }
-    std::fs::create_dir_all(&arguments.output).map_err(Error::io(&arguments.output))?;
-    run_connected(&opened.job, connected, arguments, &stop, begin)
+    run_trusting(|trusted| {
+        let connected = opened.connect(isolated, trusted)?;
+        warn(&connected.warnings);
+        std::fs::create_dir_all(&arguments.output).map_err(Error::io(&arguments.output))?;
+        run_connected(&opened.job, connected, arguments, &stop, begin)
+    })
 }
 
 /// From initialization to the summary.
@@ -94,8 +111,12 @@ fn run_connected(
         bar: progress_bar(axis.steps(), arguments.quiet),
     };
     let mut seconds = Seconds::default();
-    let outcome = simulate(&mut connected, axis, &mut log, stop, begin, &mut seconds);
+    let begun = initialise(&mut connected, axis, &mut log, !arguments.no_probe);
+    let outcome = begun.and_then(|()| simulate(&mut connected, axis, &mut log, stop, begin, &mut seconds));
     log.bar.finish_and_clear();
+    if matches!(outcome, Err(Error::Lies(_))) {
+        return outcome;
+    }
     let outcome = outcome.and(log.recorder.flush());
     finish(job, &log, outcome, seconds, &connected, folder, arguments.quiet)
 }
@@ -133,6 +154,20 @@ impl Log {
     }
 }
 
+/// Static equilibrium; its row; what trial steps show.
+fn initialise(connected: &mut Connected, axis: TimeAxis, log: &mut Log, probe: bool) -> Result<(), Error> {
+    let Connected { train_track, bridge, coupling, wiring, .. } = connected;
+    coupling.initialise(train_track, bridge, 0.0)?;
+    log.step(train_track, bridge, 0, 0.0, 0.0)?;
+    if probe {
+        let all = 0..wiring.forces.len();
+        connected.probe = coupling.probe(train_track, bridge, &[all], axis)?;
+        let names = [train_track, bridge].map(|side| side.instance().name().to_string());
+        judge(&connected.probe, wiring, [&names[0], &names[1]])?;
+    }
+    Ok(())
+}
+
 fn simulate(
     connected: &mut Connected,
     axis: TimeAxis,
@@ -142,8 +177,6 @@ fn simulate(
     seconds: &mut Seconds,
 ) -> Result<(), Error> {
     let Connected { train_track, bridge, coupling, .. } = connected;
-    coupling.initialise(train_track, bridge, 0.0)?;
-    log.step(train_track, bridge, 0, 0.0, 0.0)?;
     let inside = |fmu: &mut FmuSubsystem| fmu.instance().tally().time.as_secs_f64();
     let before = [inside(train_track), inside(bridge)];
     seconds.initialization = begin.elapsed().as_secs_f64();
@@ -180,7 +213,7 @@ fn finish(
     folder: &Path,
     quiet: bool,
 ) -> Result<(), Error> {
-    let coupling = CouplingReport::new(&connected.coupling);
+    let coupling = CouplingReport::new(&connected.coupling, &connected.probe);
     let (iterations, warnings) = (&log.iterations, &connected.warnings);
     let summary = Summary::new(job, &outcome, log.reached, iterations, coupling, seconds, warnings, &log.peaks);
     let written = summary.write(&folder.join("summary.json"));

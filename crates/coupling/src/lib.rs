@@ -17,6 +17,7 @@ pub mod iteration;
 pub mod model;
 pub mod newton;
 pub mod predictor;
+pub mod probe;
 pub mod quasi_newton;
 pub mod report;
 pub mod run;
@@ -25,6 +26,7 @@ pub mod snapshot;
 mod strategy;
 pub mod subsystem;
 mod trials;
+pub mod verdict;
 
 pub use in_process::InProcess;
 pub use instance::Instance;

@@ -62,6 +62,15 @@ pub trait Subsystem {
         true
     }
 
+    /// Another instance of the same, to be tried and thrown away: in the state this one had when initialization ended, under
+    /// `inputs`. None if there can be none.
+    ///
+    /// # Errors
+    /// It cannot be made.
+    fn understudy(&mut self, _inputs: &[f64]) -> Result<Option<Box<dyn Subsystem>>, Failure> {
+        Ok(None)
+    }
+
     /// Whether [`Subsystem::derivative`] works.
     fn can_derive(&self) -> bool {
         false
