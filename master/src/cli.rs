@@ -111,12 +111,14 @@ pub struct Run {
     /// Use this FMU as the train–track subsystem instead of building one
     #[arg(long, value_name = "FMU")]
     pub train_track: Option<PathBuf>,
-    /// Use this FMU as the bridge instead of building one
+    /// Use this FMU as the bridge instead of building one; several times for several bridges in track order
     #[arg(long, value_name = "FMU")]
-    pub bridge: Option<PathBuf>,
-    /// How the given bridge's variables belong to ours; `ttb inspect FMU --map` proposes one
+    pub bridge: Vec<PathBuf>,
+    /// How the given bridge's variables belong to ours, where they stand, parameters; `ttb inspect FMU --map` proposes one
+    ///
+    /// With several bridges: one map for all, or one for each in the same order.
     #[arg(long, value_name = "FILE", requires = "bridge")]
-    pub map: Option<PathBuf>,
+    pub map: Vec<PathBuf>,
     /// Run FMUs in processes of their own: should one crash or hang, the results so far are kept
     ///
     /// Without value: the FMUs given by --bridge and --train-track, or both of an .ssp file. What such an FMU prints goes

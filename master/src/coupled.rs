@@ -34,9 +34,9 @@ pub struct CouplingReport {
 /// What trial steps before the run showed; empty where none could be made.
 #[derive(Clone, Debug, Default, Serialize)]
 pub struct ProbeReport {
-    /// By how much a step of the bridge repeated from a saved state differs, relative to what other forces change.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub bridge_repeats_to: Option<f64>,
+    /// By how much a step of every bridge repeated from a saved state differs, relative to what other forces change.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub bridge_repeats_to: Vec<f64>,
     /// The same of the train–track side.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub train_track_repeats_to: Option<f64>,
@@ -47,9 +47,8 @@ pub struct ProbeReport {
 
 impl From<&Probe> for ProbeReport {
     fn from(probe: &Probe) -> Self {
-        let [train_track_repeats_to, bridge_repeats_to] = probe.difference;
         let mass_per_support = probe.responses.iter().map(|response| response.mass).collect();
-        Self { bridge_repeats_to, train_track_repeats_to, mass_per_support }
+        Self { bridge_repeats_to: probe.bridge.clone(), train_track_repeats_to: probe.train_track, mass_per_support }
     }
 }
 

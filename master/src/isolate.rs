@@ -68,7 +68,7 @@ impl Isolated {
 /// Whether train–track and bridge FMU come from the user: by an option, or in a system structure.
 fn given(arguments: &Run) -> [bool; 2] {
     let system = arguments.scenario.as_deref().is_some_and(is_system);
-    [&arguments.train_track, &arguments.bridge].map(|fmu| system || fmu.is_some())
+    [arguments.train_track.is_some(), !arguments.bridge.is_empty()].map(|given| system || given)
 }
 
 /// Opens an FMU for this process or one of its own.

@@ -8,6 +8,7 @@ macro_rules! say {
     }};
 }
 
+mod assign;
 mod build;
 mod check;
 mod cli;
@@ -20,6 +21,7 @@ mod inspect_bridge;
 mod isolate;
 mod job;
 mod map;
+mod parameters;
 mod peaks;
 mod plot;
 mod probe;

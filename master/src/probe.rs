@@ -1,103 +1,114 @@
 //! What the trial steps before the first one mean, in the words of the map.
 
-use ttb_coupling::probe::Probe;
-use ttb_coupling::report::Side;
+use ttb_coupling::probe::{Probe, is_lie};
 use ttb_coupling::verdict::{Response, Verdict};
 
-use crate::connect::{Wire, Wiring};
+use crate::assign::Assigned;
 use crate::error::Error;
 
-/// Refuses what was found to be wrong.
-pub fn judge(probe: &Probe, wiring: &Wiring, names: [&str; 2]) -> Result<(), Error> {
-    let [train_track, bridge] = names;
-    if probe.lies(Side::TrainTrack) {
-        return Err(Error::Fmu(format!(
-            "{train_track}: it says that it can save and restore its state (canGetAndSetFMUstate), but {}",
-            repeated(probe.difference[0])
-        )));
+/// Refuses what was found to be wrong; `parts` are the bridges.
+pub fn judge(probe: &Probe, train_track: &str, parts: &[(String, Assigned)]) -> Result<(), Error> {
+    if let Some(off) = probe.train_track.filter(|off| is_lie(*off)) {
+        return Err(Error::Fmu(format!("{train_track}: {}", lie(off))));
     }
-    if probe.lies(Side::Bridge) {
-        return Err(Error::Lies(format!(
-            "{bridge}: it says that it can save and restore its state (canGetAndSetFMUstate), but {}",
-            repeated(probe.difference[1])
-        )));
+    if let Some(((name, _), off)) = parts.iter().zip(&probe.bridge).find(|(_, off)| is_lie(**off)) {
+        return Err(Error::Lies(format!("{name}: {}", lie(*off))));
     }
-    let problems: Vec<String> = probe.responses.iter().filter_map(|response| problem(response, wiring)).collect();
+    let problem = |((name, part), response): (&(String, Assigned), &Response)| {
+        let verdict = response.verdict()?;
+        Some(format!("{name}: {}", part.says(&verdict, response)))
+    };
+    let problems: Vec<String> = parts.iter().zip(&probe.responses).filter_map(problem).collect();
     if problems.is_empty() {
         return Ok(());
     }
-    let text = problems.join("\n  ");
     Err(Error::Input(format!(
-        "{bridge}: trial forces on it show that its variables are not what they are taken for:\n  {text}\n\
-         Factors are those of the map (their value = factor · ours in N, m, m/s, down positive; --map, docs/guide/bridges.md). \
-         If all is as it should be: --no-probe."
+        "{}\nTrial forces before the first step show this. Factors are those of the map: their value = factor · ours in N, m, \
+         m/s, down positive (--map, docs/guide/bridges.md). If all is as it should be: --no-probe.",
+        problems.join("\n")
     )))
 }
 
-fn repeated(difference: Option<f64>) -> String {
-    let difference = difference.unwrap_or(f64::INFINITY);
-    format!("a step repeated from a restored state differs by {difference:.1e} of what other forces change")
+fn lie(off: f64) -> String {
+    format!(
+        "it says that it can save and restore its state (canGetAndSetFMUstate), but a step repeated from a restored state \
+         differs by {off:.1e} of what other forces change"
+    )
 }
 
-/// What is wrong with the variables of one deck, and what would mend it.
-fn problem(response: &Response, wiring: &Wiring) -> Option<String> {
-    let verdict = response.verdict()?;
-    let n = wiring.forces.len();
-    let at = response.forces.start;
-    let (force, displacement, velocity) = (&wiring.forces[at], &wiring.motions[at], &wiring.motions[n + at]);
-    let motion = |which: usize| if which == 0 { displacement } else { velocity };
-    let mass = response.mass[0].abs();
-    let seen = |mass: f64| format!("{} answers as if there were {mass:.2e} kg under each support", displacement.output);
-    let mend = |key: &str, wire: &Wire, now: f64, excess: f64| {
-        let (name, factor) = (if key == "force" { &wire.input } else { &wire.output }, now * excess);
-        format!("\"{key}\" ({name} …): \"factor\": {factor:e}{}", unit(key, excess))
-    };
-    let force_factor = force.to_input.factor;
-    let motion_factor = |which: usize| motion(which).from_output.factor.recip();
-    let mend_motion = |which: usize, excess: f64| {
-        mend(["displacement", "velocity"][which], motion(which), motion_factor(which), excess)
-    };
-    Some(match verdict {
-        Verdict::Still(which) => {
-            let name = &motion(which).output;
-            format!("{name} and the like do not move at all under forces on {} and the like", force.input)
+impl Assigned {
+    /// Variables of a series: force, displacement, velocity.
+    fn first(&self, key: &str) -> (&str, f64) {
+        let (ends, at) = match key {
+            "force" => (&self.forces_in, 0),
+            "displacement" => (&self.motions_out, 0),
+            _ => (&self.motions_out, self.motions_out.names.len() / 2),
+        };
+        let (name, line) = (&ends.names[at], ends.lines[at]);
+        (name, if key == "force" { line.factor } else { line.factor.recip() })
+    }
+
+    /// The factor that makes values `excess` times larger ones right.
+    fn mend(&self, key: &str, excess: f64) -> String {
+        if key == "velocity" && !self.velocities {
+            return "none to velocity, which follows from displacement".into();
         }
-        Verdict::Together(excess) => {
-            let what = match (excess < 0.0, excess.abs() == 1.0) {
-                (true, true) => "the deck moves against the forces".to_string(),
-                (true, false) => format!("the deck moves against the forces, and {}", seen(mass)),
-                _ => seen(mass),
-            };
-            let motions = format!("{} and {}", mend_motion(0, excess), mend_motion(1, excess));
-            format!("{what}; give {}; or else {motions}", mend("force", force, force_factor, excess.recip()))
+        let (name, factor) = self.first(key);
+        format!("\"{key}\" ({name} …): \"factor\": {:e}{}", factor * excess, unit(key, excess))
+    }
+
+    /// What a verdict means for its variables.
+    fn says(&self, verdict: &Verdict, response: &Response) -> String {
+        const MOTIONS: [&str; 2] = ["displacement", "velocity"];
+        let number = |i: usize| i + 1;
+        let seen = || format!("the deck answers as if it had {:.2e} kg under each support", response.mass[0].abs());
+        match *verdict {
+            Verdict::Still(which) => {
+                let key = if self.velocities { MOTIONS[which] } else { MOTIONS[0] };
+                let (motion, force) = (self.first(key).0, self.first("force").0);
+                format!("{motion} and the like do not move under forces on {force} and the like")
+            }
+            Verdict::Together(excess) => {
+                let what = match (excess < 0.0, excess.abs() == 1.0) {
+                    (true, true) => "the deck moves against the forces".to_string(),
+                    (true, false) => format!("the deck moves against the forces, and {}", seen()),
+                    _ => seen(),
+                };
+                let [d, v] = MOTIONS.map(|key| self.mend(key, excess));
+                let also = if self.velocities { format!(" and {v}") } else { String::new() };
+                format!("{what}; give {}; or else {d}{also}", self.mend("force", excess.recip()))
+            }
+            Verdict::Alone(which, excess) => {
+                let how = if excess == -1.0 {
+                    "has the opposite sign of".to_string()
+                } else {
+                    format!("is {excess:e} times what would belong to")
+                };
+                format!(
+                    "the {} {how} the {}; give {}",
+                    MOTIONS[which],
+                    MOTIONS[1 - which],
+                    self.mend(MOTIONS[which], excess)
+                )
+            }
+            Verdict::OneOf(excess) => format!(
+                "displacement and velocity do not belong together: the displacement is {excess:e} times the integral of the \
+                 velocity; give {}, or {}",
+                self.mend(MOTIONS[0], excess),
+                self.mend(MOTIONS[1], excess.recip())
+            ),
+            Verdict::Against(i) => format!(
+                "the displacement at support {} goes against a force there, at other supports it does not",
+                number(i)
+            ),
+            Verdict::Mixed(i, j) => format!(
+                "a force at support {0} moves the deck at support {1}, and one at support {1} moves it at support {0}, as on no \
+                 deck: forces and motions are not in the same order, or do not begin at the same number (\"first\")",
+                number(i),
+                number(j)
+            ),
         }
-        Verdict::Alone(which, excess) => {
-            let (what, other) = [("displacement", "velocity"), ("velocity", "displacement")][which];
-            let how = if excess == -1.0 {
-                "has the opposite sign of".to_string()
-            } else {
-                format!("is {excess:e} times what would belong to")
-            };
-            format!("the {what} {how} the {other}; give {}", mend_motion(which, excess))
-        }
-        Verdict::OneOf(excess) => format!(
-            "displacement and velocity do not belong together: in a step the displacement is {excess:e} times the integral of \
-             the velocity; give {}, or {}",
-            mend_motion(0, excess),
-            mend_motion(1, excess.recip())
-        ),
-        Verdict::Against(i) => {
-            format!(
-                "{} moves against a force on {}, other supports do not",
-                wiring.motions[i].output, wiring.forces[i].input
-            )
-        }
-        Verdict::Mixed(i, j) => format!(
-            "a force on {} moves {}, and a force on {} moves {}, as on no deck: forces and motions are not in the same order, \
-             or do not begin at the same number (\"first\")",
-            wiring.forces[i].input, wiring.motions[j].output, wiring.forces[j].input, wiring.motions[i].output
-        ),
-    })
+    }
 }
 
 /// What a factor suggests.

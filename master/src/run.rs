@@ -12,7 +12,7 @@ use ttb_fmi2::import::FmuSubsystem;
 
 use crate::build;
 use crate::cli::Run;
-use crate::connect::{Connected, connect};
+use crate::connect::{BridgeSide, Connected, Given, connect};
 use crate::coupled::CouplingReport;
 use crate::error::Error;
 use crate::isolate::Isolated;
@@ -40,18 +40,29 @@ pub fn run(arguments: &Run) -> Result<(), Error> {
 
 fn run_scenario(arguments: &Run, isolated: &Isolated) -> Result<(), Error> {
     let checked = build::scenario(arguments.scenario.as_deref())?;
-    for given in [&arguments.train_track, &arguments.bridge].into_iter().flatten() {
+    for given in arguments.train_track.iter().chain(&arguments.bridge) {
         std::fs::File::open(given).map_err(|e| Error::Input(format!("{}: {e}", given.display())))?;
     }
-    let map = arguments.map.as_deref().map(Map::load).transpose()?;
+    let maps = arguments.map.iter().map(|path| Map::load(path)).collect::<Result<Vec<_>, _>>()?;
+    if maps.len() > 1 && maps.len() != arguments.bridge.len() {
+        let (maps, bridges) = (maps.len(), arguments.bridge.len());
+        return Err(Error::Input(format!(
+            "{bridges} bridges and {maps} maps: give one for all, or one for each in the same order"
+        )));
+    }
     let folder = &arguments.output;
     std::fs::create_dir_all(folder).map_err(Error::io(folder))?;
     let train_track = arguments.train_track.clone().map_or_else(|| build::train_track(&checked, folder), Ok)?;
-    let bridge = arguments.bridge.clone().map_or_else(|| build::bridge(&checked, folder), Ok)?;
+    let mut bridges = arguments.bridge.clone();
+    if bridges.is_empty() {
+        bridges.push(build::bridge(&checked, folder)?);
+    }
+    let map = |k: usize| if maps.len() > 1 { maps.get(k) } else { maps.first() };
+    let bridges: Vec<Given> = bridges.iter().enumerate().map(|(k, path)| Given { path, map: map(k) }).collect();
     let (stop, begin) = (stop_on_interrupt(), Instant::now());
     let told = checked.warnings.len();
     run_trusting(|trusted| {
-        let connected = connect(&train_track, &bridge, &checked, isolated, map.as_ref(), trusted)?;
+        let connected = connect(&train_track, &bridges, &checked, isolated, trusted)?;
         warn(&connected.warnings[told..]);
         run_connected(&Job::from(&checked), connected, arguments, &stop, begin)
     })
@@ -73,7 +84,7 @@ fn warn(warnings: &[String]) {
 }
 
 fn run_system(path: &Path, arguments: &Run, isolated: &Isolated) -> Result<(), Error> {
-    if arguments.train_track.is_some() || arguments.bridge.is_some() {
+    if arguments.train_track.is_some() || !arguments.bridge.is_empty() {
         return Err(Error::Input(
             "--train-track and --bridge belong to a scenario; an .ssp file names its FMUs itself".into(),
         ));
@@ -138,7 +149,7 @@ impl Log {
     fn step(
         &mut self,
         train_track: &mut FmuSubsystem,
-        bridge: &mut FmuSubsystem,
+        bridge: &mut BridgeSide,
         n: u64,
         t: f64,
         h: f64,
@@ -156,14 +167,13 @@ impl Log {
 
 /// Static equilibrium; its row; what trial steps show.
 fn initialise(connected: &mut Connected, axis: TimeAxis, log: &mut Log, probe: bool) -> Result<(), Error> {
-    let Connected { train_track, bridge, coupling, wiring, .. } = connected;
+    let Connected { train_track, bridge, coupling, .. } = connected;
     coupling.initialise(train_track, bridge, 0.0)?;
     log.step(train_track, bridge, 0, 0.0, 0.0)?;
     if probe {
-        let all = 0..wiring.forces.len();
-        connected.probe = coupling.probe(train_track, bridge, &[all], axis)?;
-        let names = [train_track, bridge].map(|side| side.instance().name().to_string());
-        judge(&connected.probe, wiring, [&names[0], &names[1]])?;
+        let groups = bridge.ranges();
+        connected.probe = coupling.probe(train_track, bridge, &groups, axis)?;
+        judge(&connected.probe, train_track.instance().name(), &connected.parts)?;
     }
     Ok(())
 }
@@ -177,20 +187,19 @@ fn simulate(
     seconds: &mut Seconds,
 ) -> Result<(), Error> {
     let Connected { train_track, bridge, coupling, .. } = connected;
-    let inside = |fmu: &mut FmuSubsystem| fmu.instance().tally().time.as_secs_f64();
-    let before = [inside(train_track), inside(bridge)];
+    let before = [inside(train_track), inside_all(bridge)];
     seconds.initialization = begin.elapsed().as_secs_f64();
     let begin = Instant::now();
     let mut reading = [0.0; 2];
     log.mark = begin;
     let ended = run_steps(coupling, train_track, bridge, axis, |train_track, bridge, n, t, info| {
         let stepped = Instant::now();
-        let inside_before = [inside(train_track), inside(bridge)];
+        let inside_before = [inside(train_track), inside_all(bridge)];
         log.iterations.count(info);
         log.recorder.iteration(t, info, (stepped - log.mark).as_secs_f64())?;
         log.step(train_track, bridge, n, t, axis.size(n - 1))?;
         reading[0] += inside(train_track) - inside_before[0];
-        reading[1] += inside(bridge) - inside_before[1];
+        reading[1] += inside_all(bridge) - inside_before[1];
         log.mark = Instant::now();
         log.recording += (log.mark - stepped).as_secs_f64();
         Ok::<_, Error>(if stop.load(Ordering::Relaxed) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) })
@@ -198,9 +207,18 @@ fn simulate(
     seconds.stepping = begin.elapsed().as_secs_f64();
     seconds.recording = log.recording;
     seconds.train_track = inside(train_track) - before[0] - reading[0];
-    seconds.bridge = inside(bridge) - before[1] - reading[1];
+    seconds.bridge = inside_all(bridge) - before[1] - reading[1];
     seconds.master = seconds.stepping - seconds.recording - seconds.train_track - seconds.bridge;
     if ended?.is_break() { Err(Error::Interrupted) } else { Ok(()) }
+}
+
+/// Seconds spent inside an FMU so far.
+fn inside(fmu: &mut FmuSubsystem) -> f64 {
+    fmu.instance().tally().time.as_secs_f64()
+}
+
+fn inside_all(bridge: &mut BridgeSide) -> f64 {
+    bridge.parts().map(|part| inside(part.inner())).sum()
 }
 
 /// Summary and picture, also of a run that failed; its error is passed on.

@@ -137,7 +137,7 @@ def test_motions_that_begin_at_another_number_are_refused(ttb, examples, r1, tmp
     (tmp_path / "map.json").write_text(json.dumps(shifted))
     arguments = ["run", examples / "r1.json", "--bridge", tmp_path / "Bridge.fmu", "--map", tmp_path / "map.json"]
     said = ttb(*arguments, "-o", tmp_path / "out", expect=2).stderr
-    assert "not in the same order" in said and "support[25].force moves" in said
+    assert "not in the same order" in said and "a force at support 25 moves the deck at support 26" in said
 
 
 def test_no_probe_leaves_it_to_the_user(ttb, examples, r1, tmp_path):

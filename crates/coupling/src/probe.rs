@@ -38,19 +38,18 @@ const REPEATED: [f64; 2] = [1e-8, 1e-13];
 /// What was found out.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Probe {
-    /// Train–track subsystem, bridge: by how much a step repeated from a saved state differed, relative to what the
-    /// trials in between had changed; none if it cannot roll back.
-    pub difference: [Option<f64>; 2],
+    /// By how much a step of the train–track subsystem repeated from a saved state differed, relative to what the trials in
+    /// between had changed; none if it cannot roll back.
+    pub train_track: Option<f64>,
+    /// The same of every group; empty if the bridge cannot roll back.
+    pub bridge: Vec<f64>,
     /// Of every group of forces that act on a deck of their own; empty if the bridge cannot be probed.
     pub responses: Vec<Response>,
 }
 
-impl Probe {
-    /// Whether a side says it rolls back, and does not.
-    pub fn lies(&self, side: Side) -> bool {
-        let difference = self.difference[usize::from(side == Side::Bridge)];
-        difference.is_some_and(|difference| difference > REPEATED[0])
-    }
+/// Whether a repeated step that differs so much shows that a subsystem does not come back to its states.
+pub fn is_lie(difference: f64) -> bool {
+    difference > REPEATED[0]
 }
 
 /// By how much `repeated` differs from `first`, relative to its distance from `other`; rounding does not count. The two
@@ -83,7 +82,7 @@ impl Coupling {
         let mut sides = Sides { train_track, bridge, t: axis.time(0), h };
         let mut probe = Probe::default();
         if sides.train_track.can_roll_back() {
-            probe.difference[0] = Some(self.repeat_train_track(&mut sides, steps)?);
+            probe.train_track = Some(self.repeat_train_track(&mut sides, steps)?);
         }
         let n = self.lambda.len();
         let rolls_back = sides.bridge.can_roll_back();
@@ -111,8 +110,15 @@ impl Coupling {
         }
         if rolls_back {
             if let Some(repeated) = self.run_bridge(&mut sides, steps, &load)? {
-                let each = loaded.iter().zip(&repeated).zip(&base).map(|((a, b), c)| difference(a, b, c, 2));
-                probe.difference[1] = Some(each.fold(0.0, f64::max));
+                let off = |group: &Range<usize>| {
+                    let own = |motion: &Vec<f64>| -> Vec<f64> {
+                        let halves = if comparable { 2 } else { 1 };
+                        (0..halves).flat_map(|half| &motion[half * n..][group.clone()]).copied().collect()
+                    };
+                    let each = loaded.iter().zip(&repeated).zip(&base);
+                    each.map(|((a, b), c)| difference(&own(a), &own(b), &own(c), 2)).fold(0.0, f64::max)
+                };
+                probe.bridge = groups.iter().map(off).collect();
             }
             sides.bridge.restore()?;
         }
@@ -183,7 +189,7 @@ impl Coupling {
         sides.bridge.restore()?;
         self.exchange.bridge(sides, self.forces.now(), &self.lambda, true)?;
         let off = difference(&self.repeated, &self.exchange.motion, &self.exchange.now, 2);
-        if off > REPEATED[0] {
+        if is_lie(off) {
             return Err(IterationError::NoReturn { t: sides.t, side: Side::Bridge, difference: off });
         }
         Ok(())

@@ -1,5 +1,6 @@
 //! `ttb run SYSTEM.ssp`: from an archive to two FMUs and how they are connected, or to everything that is wrong with it.
 
+use std::collections::BTreeMap;
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
@@ -12,6 +13,7 @@ use ttb_ssp::{Report, STRUCTURE, Structure};
 use super::annotation::{self, Settings};
 use super::roles;
 use super::wiring::{Link, links};
+use crate::assign::Assigned;
 use crate::connect::{Bridge, Connected, Wire, Wiring, couple, instantiate};
 use crate::error::Error;
 use crate::isolate::{self, Isolated};
@@ -28,7 +30,7 @@ pub struct Opened {
     train_track: (String, Fmu),
     /// Name of the component and file of the FMU.
     bridge: (String, PathBuf),
-    wiring: Wiring,
+    assigned: Assigned,
     /// The archive's files.
     _folder: TempDir,
 }
@@ -90,17 +92,19 @@ impl Opened {
         let bridge = &components[1 - train_track];
         let train_track = (components[train_track].name.clone(), if train_track == 0 { first } else { second });
         let bridge = (bridge.name.clone(), folder.path().join(&bridge.source));
-        Ok(Self { job, warnings, settings, train_track, bridge, wiring, _folder: folder })
+        Ok(Self { job, warnings, settings, train_track, bridge, assigned: wiring.into(), _folder: folder })
     }
 
     /// Both FMUs in initialization mode, connected; see [`crate::connect::connect`].
     pub fn connect(&self, isolated: &Isolated, trusted: bool) -> Result<Connected, Error> {
         let (name, fmu) = &self.train_track;
-        let train_track = instantiate(fmu, name, self.job.end)?;
+        let none = BTreeMap::new();
+        let train_track = instantiate(fmu, name, self.job.end, &none)?;
         let (name, path) = &self.bridge;
-        let bridge = Bridge::open(path, name, isolated.bridge.as_ref(), self.job.end, trusted)?;
+        let bridge = Bridge::open(path, name, isolated.bridge.as_ref(), self.job.end, &none)?;
         let Settings { coupling, force_scale, .. } = &self.settings;
-        couple(train_track, bridge, self.wiring.clone(), coupling, *force_scale, self.warnings.clone())
+        let parts = vec![(bridge, self.assigned.clone())];
+        couple(train_track, parts, coupling, *force_scale, self.job.step, trusted, self.warnings.clone())
     }
 }
 
