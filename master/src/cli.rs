@@ -71,7 +71,11 @@ pub enum Command {
     },
     /// What `ttb run --isolate` starts to run an FMU in
     #[command(hide = true)]
-    Host,
+    Host {
+        /// Load this library first
+        #[arg(long)]
+        preload: Vec<PathBuf>,
+    },
 }
 
 const RUN_HELP: &str = "\
@@ -128,6 +132,9 @@ pub struct Run {
     /// Longest time a call of an isolated FMU may take [default: 60]
     #[arg(long, value_name = "SECONDS", requires = "isolate", allow_negative_numbers = true)]
     pub timeout: Option<f64>,
+    /// Load this library before the FMUs, e.g. libpython3.11.so.1.0 for those made with PythonFMU
+    #[arg(long, value_name = "LIB")]
+    pub preload: Vec<PathBuf>,
     /// Skip the trial steps before the run that test roll-back, signs and units of the FMUs
     #[arg(long)]
     pub no_probe: bool,
@@ -166,6 +173,9 @@ pub struct Check {
     /// Seconds a single call may take
     #[arg(long, default_value_t = 30.0, value_name = "SECONDS")]
     pub timeout: f64,
+    /// Load this library before the FMU, e.g. libpython3.11.so.1.0 for one made with PythonFMU
+    #[arg(long, value_name = "LIB")]
+    pub preload: Vec<PathBuf>,
     /// Make one of the checks in this process
     #[arg(long, hide = true)]
     pub worker: Option<String>,

@@ -33,6 +33,8 @@ pub struct Connected {
     pub parts: Vec<(String, Assigned)>,
     /// What trial steps before the first one showed.
     pub probe: Probe,
+    /// Whether there may be more instances of every bridge in this process.
+    pub several: bool,
 }
 
 /// A bridge FMU that the user gives, or that was built here.
@@ -219,6 +221,7 @@ pub fn couple(
             train_track.name()
         )));
     }
+    let all_several = bridges.iter().all(|(bridge, _)| bridge.several);
     let rolls_back = trusted && bridges.iter().all(|(bridge, _)| bridge.instance.can_restore());
     let mut forces_out = Ends::default();
     let (mut displacements, mut velocities) = (Ends::default(), Ends::default());
@@ -268,7 +271,7 @@ pub fn couple(
         warnings.push("the train–track FMU cannot interpolate inputs: the deck's motion is sent as held means".into());
     }
     let (bridge, coupling) = (Joined::new(sides), Coupling::new(forces, motions, settings));
-    Ok(Connected { train_track, bridge, coupling, warnings, parts, probe: Probe::default() })
+    Ok(Connected { train_track, bridge, coupling, warnings, parts, probe: Probe::default(), several: all_several })
 }
 
 /// One side, by its coupled variables.

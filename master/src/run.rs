@@ -20,6 +20,7 @@ use crate::job::Job;
 use crate::map::Map;
 use crate::peaks::Peaks;
 use crate::plot::Plot;
+use crate::preload;
 use crate::probe::judge;
 use crate::record::Recorder;
 use crate::summary::{Iterations, Seconds, Summary};
@@ -31,6 +32,7 @@ const PROGRESS: u64 = 50;
 /// The command.
 pub fn run(arguments: &Run) -> Result<(), Error> {
     let isolated = Isolated::new(arguments)?;
+    preload::load(&arguments.preload)?;
     let done = match arguments.scenario.as_deref().filter(|path| is_system(path)) {
         Some(path) => run_system(path, arguments, &isolated),
         None => run_scenario(arguments, &isolated),
@@ -61,19 +63,30 @@ fn run_scenario(arguments: &Run, isolated: &Isolated) -> Result<(), Error> {
     let bridges: Vec<Given> = bridges.iter().enumerate().map(|(k, path)| Given { path, map: map(k) }).collect();
     let (stop, begin) = (stop_on_interrupt(), Instant::now());
     let told = checked.warnings.len();
-    run_trusting(|trusted| {
-        let connected = connect(&train_track, &bridges, &checked, isolated, trusted)?;
-        warn(&connected.warnings[told..]);
-        run_connected(&Job::from(&checked), connected, arguments, &stop, begin)
-    })
+    let job = Job::from(&checked);
+    run_trusting(
+        |trusted| connect(&train_track, &bridges, &checked, isolated, trusted),
+        |connected| {
+            warn(&connected.warnings[told..]);
+            run_connected(&job, connected, arguments, &stop, begin)
+        },
+    )
 }
 
-/// Runs with a bridge as it describes itself; should it turn out that it does not roll back, as one that says so.
-fn run_trusting(run: impl Fn(bool) -> Result<(), Error>) -> Result<(), Error> {
-    match run(true) {
+/// Runs with bridges as they describe themselves; should it turn out that one does not roll back, once more with other
+/// instances, as ones that say so.
+fn run_trusting(
+    open: impl Fn(bool) -> Result<Connected, Error>,
+    run: impl Fn(&mut Connected) -> Result<(), Error>,
+) -> Result<(), Error> {
+    let mut first = open(true)?;
+    match run(&mut first) {
         Err(Error::Lies(text)) => {
-            warn(&[text]);
-            run(false)
+            // Not unloaded before the others, if it may stay: NumPy, for one, cannot be loaded twice.
+            let _stays = first.several.then_some(first);
+            let mut second = open(false)?;
+            second.warnings.push(text);
+            run(&mut second)
         }
         done => done,
     }
@@ -91,25 +104,27 @@ fn run_system(path: &Path, arguments: &Run, isolated: &Isolated) -> Result<(), E
     }
     let (stop, begin) = (stop_on_interrupt(), Instant::now());
     let opened = Opened::open(path, isolated)?;
-    run_trusting(|trusted| {
-        let connected = opened.connect(isolated, trusted)?;
-        warn(&connected.warnings);
-        std::fs::create_dir_all(&arguments.output).map_err(Error::io(&arguments.output))?;
-        run_connected(&opened.job, connected, arguments, &stop, begin)
-    })
+    run_trusting(
+        |trusted| opened.connect(isolated, trusted),
+        |connected| {
+            warn(&connected.warnings);
+            std::fs::create_dir_all(&arguments.output).map_err(Error::io(&arguments.output))?;
+            run_connected(&opened.job, connected, arguments, &stop, begin)
+        },
+    )
 }
 
 /// From initialization to the summary.
 fn run_connected(
     job: &Job,
-    mut connected: Connected,
+    connected: &mut Connected,
     arguments: &Run,
     stop: &AtomicBool,
     begin: Instant,
 ) -> Result<(), Error> {
     let folder = &arguments.output;
     let (axis, output) = (TimeAxis::new(job.step, job.end), job.output);
-    let Connected { train_track, bridge, .. } = &mut connected;
+    let Connected { train_track, bridge, .. } = &mut *connected;
     let recorder = Recorder::new(folder, train_track, bridge, output.supports, output.every, axis.steps())?;
     let mut log = Log {
         peaks: Peaks::new(&recorder),
@@ -122,14 +137,14 @@ fn run_connected(
         bar: progress_bar(axis.steps(), arguments.quiet),
     };
     let mut seconds = Seconds::default();
-    let begun = initialise(&mut connected, axis, &mut log, !arguments.no_probe);
-    let outcome = begun.and_then(|()| simulate(&mut connected, axis, &mut log, stop, begin, &mut seconds));
+    let begun = initialise(connected, axis, &mut log, !arguments.no_probe);
+    let outcome = begun.and_then(|()| simulate(connected, axis, &mut log, stop, begin, &mut seconds));
     log.bar.finish_and_clear();
     if matches!(outcome, Err(Error::Lies(_))) {
         return outcome;
     }
     let outcome = outcome.and(log.recorder.flush());
-    finish(job, &log, outcome, seconds, &connected, folder, arguments.quiet)
+    finish(job, &log, outcome, seconds, connected, folder, arguments.quiet)
 }
 
 /// Results of a run as they come.
