@@ -48,6 +48,10 @@ pub struct Coupling {
     pub(crate) strategy: Strategy,
     pub(crate) report: Report,
     pub(crate) explicit: Explicit,
+    /// Steps that have converged.
+    pub(crate) converged: usize,
+    /// A motion to compare with.
+    pub(crate) repeated: Vec<f64>,
 }
 
 impl Coupling {
@@ -65,6 +69,8 @@ impl Coupling {
             strategy: Strategy::new(forces, &settings),
             report: Report::default(),
             explicit: Explicit::default(),
+            converged: 0,
+            repeated: vec![0.0; motions],
         }
     }
 
@@ -145,6 +151,10 @@ impl Coupling {
     fn step_or_halve(&mut self, sides: &mut Sides, depth: usize) -> Result<StepInfo, IterationError> {
         let info = self.try_step(sides)?;
         let (policy, t, h) = (self.settings.on_failure, sides.t, sides.h);
+        if info.outcome == Outcome::Converged && self.audit_is_due() {
+            self.repeated.copy_from_slice(&self.exchange.motion);
+            self.audit(sides)?;
+        }
         if info.outcome == Outcome::Converged || policy == OnFailure::Accept {
             self.forces.accept(&self.lambda, h);
             self.exchange.accept();
@@ -155,8 +165,12 @@ impl Coupling {
         }
         if policy == OnFailure::Stop || depth == HALVINGS {
             self.forces.predict(self.settings.predictor, h, &mut self.lambda);
-            let rho = self.contraction(sides).ok();
+            let rho = self.diagnose(sides);
             sides.restore()?;
+            if let Err(lie @ IterationError::NoReturn { .. }) = rho {
+                return Err(lie);
+            }
+            let rho = rho.ok();
             return Err(IterationError::NotConverged { t, h, info, rho });
         }
         sides.restore()?;
@@ -208,6 +222,15 @@ impl Coupling {
             rescues: 1,
             ..rescued
         })
+    }
+
+    /// ρ of a step that does not converge; or that the bridge does not come back to its state, which may be why.
+    fn diagnose(&mut self, sides: &mut Sides) -> Result<f64, IterationError> {
+        self.trial(sides)?;
+        self.repeated.copy_from_slice(&self.exchange.motion);
+        let rho = self.contraction(sides)?;
+        self.audit(sides)?;
+        Ok(rho)
     }
 
     /// Notes the method in force from `t` on.
