@@ -11,6 +11,8 @@ macro_rules! say {
 mod build;
 mod check;
 mod cli;
+mod clock;
+mod compare;
 mod connect;
 mod coupled;
 mod error;
@@ -21,6 +23,7 @@ mod isolate;
 mod job;
 mod map;
 mod peaks;
+mod picture;
 mod plot;
 mod record;
 mod run;
@@ -64,6 +67,7 @@ fn execute(command: Command) -> Result<(), Error> {
             Ok(())
         }
         Command::Check(arguments) => check::check(&arguments),
+        Command::Compare(arguments) => compare::compare(&arguments),
         Command::Inspect(arguments) => inspect::inspect(&arguments),
         Command::ExportSsp(arguments) => {
             say!("{}", system::export(&arguments)?.display());
