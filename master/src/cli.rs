@@ -59,6 +59,9 @@ pub enum Command {
     /// Run a scenario by the paper's methods: strongly coupled, loosely coupled, hybrid, multi-time-step
     #[command(after_help = COMPARE_HELP)]
     Compare(Compare),
+    /// Run a scenario at several steps and show how accurate every reported quantity is
+    #[command(after_help = "The output folder gets accuracy.md, accuracy.csv and the plot accuracy.svg and .png.")]
+    Accuracy(Accuracy),
     /// Show what an FMU offers and propose a map of its variables
     Inspect(Inspect),
     /// Make a bridge model of shells and beams, and a scenario that runs a train over it
@@ -209,6 +212,26 @@ pub struct Compare {
     /// Wheelset, counted from the front
     #[arg(long, default_value_t = 1)]
     pub wheel: usize,
+    /// No progress
+    #[arg(short, long)]
+    pub quiet: bool,
+}
+
+/// Arguments of `ttb accuracy`.
+#[derive(Debug, Args)]
+pub struct Accuracy {
+    /// The scenario file [default: the bundled ICE 3 over a cable-stayed bridge]
+    pub scenario: Option<PathBuf>,
+    /// Folder for the results
+    #[arg(short, long, default_value = "ttb-accuracy")]
+    pub output: PathBuf,
+    /// Steps, multiples of the fine one
+    #[arg(long, value_name = "SECONDS", value_delimiter = ',', value_parser = positive,
+        default_values_t = [4e-3, 2e-3, 1e-3, 5e-4, 2e-4, 1e-4])]
+    pub steps: Vec<f64>,
+    /// Step of the fine run
+    #[arg(long, value_name = "SECONDS", value_parser = positive, default_value_t = 2e-5)]
+    pub reference: f64,
     /// No progress
     #[arg(short, long)]
     pub quiet: bool,

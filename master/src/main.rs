@@ -67,6 +67,7 @@ fn execute(command: Command) -> Result<(), Error> {
             Ok(())
         }
         Command::Check(arguments) => check::check(&arguments),
+        Command::Accuracy(arguments) => compare::accuracy::accuracy(&arguments),
         Command::Compare(arguments) => compare::compare(&arguments),
         Command::Inspect(arguments) => inspect::inspect(&arguments),
         Command::ExportSsp(arguments) => {

@@ -4,8 +4,8 @@ use std::f64::consts::PI;
 
 use ttb_elements::{Beam3, BeamSection, Truss3};
 
-use crate::structure::*;
 use crate::COMMAND;
+use crate::structure::*;
 use ttb_record::{Table, order};
 
 const LENGTH: f64 = 8.0;

@@ -3,8 +3,8 @@
 
 use ttb_elements::Plate;
 
-use crate::structure::*;
 use crate::COMMAND;
+use crate::structure::*;
 use ttb_record::Table;
 
 const SHAPES: [Shape; 3] = [Shape::Quad, Shape::Triangle, Shape::OtherTriangle];
@@ -52,7 +52,8 @@ fn pull(s: &mut Structure, motion: usize) {
 /// on slanted meshes is reported only; there a mesh four times as fine each way has to reach grade B.
 #[test]
 fn straight_cantilever() {
-    let mut table = Table::new("straight cantilever, 6 × 1", "MacNeal & Harder 1985; unit force at the tip, m", COMMAND);
+    let mut table =
+        Table::new("straight cantilever, 6 × 1", "MacNeal & Harder 1985; unit force at the tip, m", COMMAND);
     for shape in SHAPES {
         for mesh in [Mesh::Regular, Mesh::Trapezoid, Mesh::Parallelogram] {
             for (motion, name, expected) in
@@ -83,7 +84,8 @@ fn straight_cantilever() {
 /// once elements are smaller than the thickness. (MacNeal & Harder print 0.03208.)
 #[test]
 fn straight_cantilever_twist() {
-    let mut table = Table::new("straight cantilever, unit torque", "Kirchhoff plate; St Venant's torsion; rad", COMMAND);
+    let mut table =
+        Table::new("straight cantilever, unit torque", "Kirchhoff plate; St Venant's torsion; rad", COMMAND);
     let (shear, wt3) = (1e7 / 2.6, 0.2 * 1e-3);
     for shape in SHAPES {
         for mesh in [Mesh::Regular, Mesh::Trapezoid, Mesh::Parallelogram] {

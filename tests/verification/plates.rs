@@ -4,8 +4,8 @@ use std::f64::consts::PI;
 
 use ttb_elements::Plate;
 
-use crate::structure::*;
 use crate::COMMAND;
+use crate::structure::*;
 use ttb_record::{Table, order};
 
 const SHAPES: [Shape; 3] = [Shape::Quad, Shape::Triangle, Shape::OtherTriangle];
@@ -63,7 +63,8 @@ fn cantilever_plate_frequencies() {
 /// D k⁴ − ω² [ρt + k² (ρt³/12 + ρt D/(κGt))] + ω⁴ ρt³/12 ρt/(κGt) = 0.
 #[test]
 fn thick_plate_frequencies() {
-    let mut table = Table::new("thick simply supported plate, t/a = 0.1, 16 × 16", "Mindlin 1951, closed form; rad/s", COMMAND);
+    let mut table =
+        Table::new("thick simply supported plate, t/a = 0.1, 16 × 16", "Mindlin 1951, closed form; rad/s", COMMAND);
     let plate = Plate { modulus: 1.0, poisson: 0.3, thickness: 0.1, mass: 0.1 };
     let (d, shear) = (rigidity(&plate), 5.0 / 6.0 * 0.1 / 2.6);
     let (m, rotary) = (plate.mass, plate.mass * 0.01 / 12.0);

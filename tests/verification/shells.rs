@@ -4,8 +4,8 @@ use std::f64::consts::FRAC_PI_2;
 
 use ttb_elements::Plate;
 
-use crate::structure::*;
 use crate::COMMAND;
+use crate::structure::*;
 use ttb_record::{Table, order};
 
 const SHAPES: [Shape; 3] = [Shape::Quad, Shape::Triangle, Shape::OtherTriangle];
@@ -54,7 +54,9 @@ fn scordelis_lo_roof() {
 fn pinched_cylinder() {
     let mut table = Table::new(
         "pinched cylinder with end diaphragms",
-        "Lindberg, Olson & Cowper 1969: 1.8248e-5; with shear deformation slightly more", COMMAND);
+        "Lindberg, Olson & Cowper 1969: 1.8248e-5; with shear deformation slightly more",
+        COMMAND,
+    );
     let plate = Plate { modulus: 3e6, poisson: 0.3, thickness: 3.0, mass: 0.0 };
     for shape in SHAPES {
         for n in [4, 8, 16, 32] {

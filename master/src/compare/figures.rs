@@ -14,6 +14,8 @@ use crate::picture::{Drawing, Failed, SANS, save};
 const POINTS: usize = 2400;
 /// Half of the stretch around the peak, as share of the whole.
 const ZOOM: f64 = 0.01;
+/// Width of the strip with the curves' names.
+const NAMES: f64 = 230.0;
 const COLORS: [RGBColor; 8] = [
     RGBColor(40, 40, 40),
     RGBColor(31, 85, 142),
@@ -46,7 +48,7 @@ struct Figure<'a> {
 
 impl Drawing for Figure<'_> {
     fn size(&self) -> (u32, u32) {
-        (1100, 760)
+        (1240, 760)
     }
 
     fn draw<'a, B: DrawingBackend + 'a>(&self, root: &DrawingArea<B, Shift>, scale: f64) -> Result<(), Failed<'a>>
@@ -55,7 +57,9 @@ impl Drawing for Figure<'_> {
     {
         root.fill(&WHITE)?;
         let longest = self.curves.iter().map(|c| c.reached()).fold(0.0, f64::max);
-        let panels = root.split_evenly((2, 1));
+        let (charts, names) = root.split_horizontally(root.dim_in_pixel().0 - (NAMES * scale) as u32);
+        self.names(&names, scale)?;
+        let panels = charts.split_evenly((2, 1));
         self.panel(&panels[0], 0.0..longest, &self.title, scale)?;
         let half = ZOOM * longest.max(1.0);
         let peak = self.peak_time();
@@ -73,6 +77,23 @@ impl Figure<'_> {
         at.map_or(0.0, |at| first.time[at])
     }
 
+    /// What is what, beside the charts.
+    fn names<'a, B: DrawingBackend + 'a>(&self, area: &DrawingArea<B, Shift>, scale: f64) -> Result<(), Failed<'a>>
+    where
+        B::ErrorType: 'static,
+    {
+        let px = |length: f64| (length * scale).round() as i32;
+        for (at, (ran, color)) in self.curves.iter().zip(COLORS.iter().cycle()).enumerate() {
+            let y = px(40.0 + 20.0 * at as f64);
+            let line = vec![(px(4.0), y), (px(24.0), y)];
+            area.draw(&PathElement::new(line, stroke(at, *color, scale)))?;
+            let name = format!("{}, {} ms", ran.method, rounded(1e3 * ran.step));
+            let letters = (SANS, 12.0 * scale).into_font();
+            area.draw(&Text::new(name, (px(30.0), y - px(7.0)), letters))?;
+        }
+        Ok(())
+    }
+
     fn panel<'a, B: DrawingBackend + 'a>(
         &self,
         area: &DrawingArea<B, Shift>,
@@ -86,16 +107,11 @@ impl Figure<'_> {
         let of = &QUANTITIES[self.quantity];
         let px = |length: f64| (length * scale).round() as u32;
         let letters = |size: f64| (SANS, size * scale);
-        let curves: Vec<(Vec<(f64, f64)>, RGBColor, String)> = self
-            .curves
-            .iter()
-            .zip(COLORS.iter().cycle())
-            .map(|(ran, color)| {
-                let points = within(ran, self.quantity, &time);
-                let points = thin(&points).into_iter().map(|(t, x)| (t, x * of.factor)).collect();
-                (points, *color, format!("{}, {} ms", ran.method, rounded(1e3 * ran.step)))
-            })
-            .collect();
+        let points = |ran: &&Ran| {
+            let points = within(ran, self.quantity, &time);
+            thin(&points).into_iter().map(|(t, x)| (t, x * of.factor)).collect::<Vec<(f64, f64)>>()
+        };
+        let curves: Vec<Vec<(f64, f64)>> = self.curves.iter().map(points).collect();
         let mut chart = ChartBuilder::on(area)
             .caption(format!("{title}, {}", of.unit), letters(15.0))
             .margin(px(8.0))
@@ -105,31 +121,24 @@ impl Figure<'_> {
             .build_cartesian_2d(time, limits(&curves))?;
         let mut mesh = chart.configure_mesh();
         mesh.light_line_style(WHITE).x_labels(10).y_labels(6).x_desc("time, s");
+        mesh.y_label_formatter(&|y| rounded(*y).to_string());
         mesh.label_style(letters(12.0)).axis_desc_style(letters(13.0)).draw()?;
-        // The last row is drawn first, so that the reference stays visible on top as a thin line.
-        for (at, (points, color, name)) in curves.into_iter().enumerate() {
-            let width = if at == 0 { px(2.5) } else { px(1.0) };
-            let color = if at == 0 { color.mix(0.35) } else { color.mix(1.0) };
-            let (length, stroke) = (px(16.0) as i32, px(2.0));
-            chart
-                .draw_series(LineSeries::new(points, color.stroke_width(width)))?
-                .label(name)
-                .legend(move |(x, y)| PathElement::new([(x, y), (x + length, y)], color.stroke_width(stroke)));
+        for (at, (points, color)) in curves.into_iter().zip(COLORS.iter().cycle()).enumerate() {
+            chart.draw_series(LineSeries::new(points, stroke(at, *color, scale)))?;
         }
-        chart
-            .configure_series_labels()
-            .position(SeriesLabelPosition::UpperRight)
-            .legend_area_size(px(22.0))
-            .label_font(letters(11.0))
-            .background_style(WHITE.mix(0.8))
-            .draw()?;
         Ok(())
     }
 }
 
-/// A step without rounding noise.
-fn rounded(milliseconds: f64) -> f64 {
-    (1e6 * milliseconds).round() / 1e6
+/// The first curve is broad and light, so that all others are seen on it.
+fn stroke(at: usize, color: RGBColor, scale: f64) -> ShapeStyle {
+    let (width, share) = if at == 0 { (3.0, 0.35) } else { (1.0, 1.0) };
+    color.mix(share).stroke_width((width * scale).round() as u32)
+}
+
+/// Without rounding noise, nor a minus before zero.
+fn rounded(x: f64) -> f64 {
+    (1e6 * x).round() / 1e6 + 0.0
 }
 
 /// The points of a curve in a stretch of time, one more on either side.
@@ -139,8 +148,8 @@ fn within(ran: &Ran, quantity: usize, time: &Range<f64>) -> Vec<(f64, f64)> {
     (first..end).map(|i| (ran.time[i], ran.histories[quantity][i])).filter(|(_, x)| x.is_finite()).collect()
 }
 
-fn limits(curves: &[(Vec<(f64, f64)>, RGBColor, String)]) -> Range<f64> {
-    let values = || curves.iter().flat_map(|(points, ..)| points.iter().map(|(_, x)| *x));
+fn limits(curves: &[Vec<(f64, f64)>]) -> Range<f64> {
+    let values = || curves.iter().flatten().map(|(_, x)| *x);
     let (low, high) = (values().fold(f64::INFINITY, f64::min), values().fold(f64::NEG_INFINITY, f64::max));
     let margin = 0.06 * (high - low);
     if margin > 0.0 { low - margin..high + margin } else { -1.0..1.0 }

@@ -1,10 +1,13 @@
-//! `ttb compare`: one case by the methods of the paper, its Table 2 and its Figures 7 to 10.
+//! `ttb compare`: one case by the methods of the paper, its Table 2 and its Figures 7 to 10. And `ttb accuracy`
+//! ([`accuracy`]): one case by the product at several steps.
 
+pub mod accuracy;
 mod figures;
 mod hybrid;
-mod reference;
 mod ran;
+mod reference;
 mod rows;
+mod slopes;
 mod table;
 
 use std::sync::atomic::AtomicBool;

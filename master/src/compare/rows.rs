@@ -113,7 +113,11 @@ fn limit(bench: &Bench, prepared: &mut Prepared) -> Result<f64, Error> {
     let mut h = 0.4 * own;
     for _ in 0..20 {
         let g = gain(h)?;
-        if g < 1.0 { low = h } else { high = h }
+        if g < 1.0 {
+            low = h
+        } else {
+            high = h
+        }
         if high - low <= 0.01 * high {
             break;
         }

@@ -35,11 +35,9 @@ pub struct Row {
 }
 
 /// All rows.
-#[derive(Debug, Serialize)]
+#[derive(Debug)]
 pub struct Table {
-    title: String,
     quantities: Vec<String>,
-    #[serde(skip_serializing_if = "Option::is_none")]
     reference_step_s: Option<f64>,
     rows: Vec<Row>,
 }
@@ -71,7 +69,6 @@ impl Table {
             }
         };
         Self {
-            title: String::new(),
             quantities: (0..4).map(|q| watched.describe(q)).collect(),
             reference_step_s: truth.map(|truth| truth.step),
             rows: rows.iter().enumerate().map(row).collect(),
@@ -83,7 +80,8 @@ impl Table {
         let path = folder.join("compare.json");
         let titled = serde_json::json!({ "title": checked.scenario.title, "scenario_sha256": checked.hash,
             "quantities": self.quantities, "reference_step_s": self.reference_step_s, "rows": self.rows });
-        let text = serde_json::to_string_pretty(&titled).map_err(|e| Error::Io { path: path.clone(), source: e.into() })?;
+        let text =
+            serde_json::to_string_pretty(&titled).map_err(|e| Error::Io { path: path.clone(), source: e.into() })?;
         std::fs::write(&path, text + "\n").map_err(Error::io(&path))?;
         let path = folder.join("compare.csv");
         let failed = |e: csv::Error| Error::Io { path: path.clone(), source: e.into() };
@@ -174,7 +172,7 @@ impl Table {
             );
         }
         for row in &self.rows {
-            row.notes.iter().for_each(|note| say!("  {} at {} ms: {note}", row.method, 1e3 * row.step_s));
+            row.notes.iter().for_each(|note| say!("  {} at {:.4} ms: {note}", row.method, 1e3 * row.step_s));
         }
         say!("  equal h: greatest difference of the four histories from the first row of the same step, relative");
         say!("  results in {}", folder.display());
