@@ -195,7 +195,7 @@ pub struct Compare {
     #[arg(long, value_enum, value_delimiter = ',', default_values_t = Compared::ALL)]
     pub methods: Vec<Compared>,
     /// All methods at each of these steps
-    #[arg(long, value_name = "SECONDS", value_delimiter = ',')]
+    #[arg(long, value_name = "SECONDS", value_delimiter = ',', value_parser = positive)]
     pub steps: Vec<f64>,
     /// Step of the run that peaks are compared with; none: no such run [default: a tenth of the scenario's]
     #[arg(long, value_name = "SECONDS", default_value = "auto", hide_default_value = true)]

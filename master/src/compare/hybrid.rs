@@ -5,7 +5,7 @@ use std::sync::atomic::Ordering;
 
 use ttb_bridge::Bridge;
 use ttb_coupling::run::{TimeAxis, run as run_steps};
-use ttb_coupling::{Coupling, InProcess, IterationError, Model, ModelError, Pair, StepInfo};
+use ttb_coupling::{Coupling, InProcess, Model, ModelError, Pair, StepInfo};
 use ttb_scenario::Checked;
 use ttb_train_track::TrainTrack;
 
@@ -47,16 +47,12 @@ pub fn run(bench: &Bench, row: &Planned) -> Result<Ran, Error> {
     let ended = run_steps(&mut coupling, &mut train_track, &mut bridge, axis, after);
     bar.finish_and_clear();
     match ended {
-        Err(Error::NotConverged(failed)) => ran.notes.push(failed_in(&failed)),
+        Err(Error::NotConverged(failed)) => ran.failure = Some(failed.to_string()),
         Err(other) => return Err(other),
         Ok(_) if bench.stop.load(Ordering::Relaxed) => return Err(Error::Interrupted),
         Ok(_) => {}
     }
     Ok(ran)
-}
-
-fn failed_in(error: &IterationError) -> String {
-    format!("stopped: {error}")
 }
 
 /// The scenario at a row's step. A multi-time-step row takes that as the macro step and divides it for train and track.

@@ -99,8 +99,10 @@ pub struct Ran {
     pub time: Vec<f64>,
     /// [`QUANTITIES`] over time, SI.
     pub histories: [Vec<f64>; 4],
-    /// Why it stopped early, what was chosen.
+    /// What was chosen.
     pub notes: Vec<String>,
+    /// Why it could not go on.
+    pub failure: Option<String>,
 }
 
 impl Ran {
@@ -141,10 +143,9 @@ impl Ran {
         self.histories[quantity][..rows].iter().fold(0.0, |peak, x| peak.max(x.abs()))
     }
 
-    /// Greatest difference of a quantity from another run of the same step, relative to its peak.
+    /// Greatest difference of a quantity from another run of the same step, as far as both go.
     pub fn difference(&self, other: &Self, quantity: usize) -> f64 {
-        let peak = other.peak(quantity, self.reached().min(other.reached()));
         let pairs = self.histories[quantity].iter().zip(&other.histories[quantity]);
-        pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max) / peak
+        pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
     }
 }

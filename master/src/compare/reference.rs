@@ -79,7 +79,7 @@ pub fn run(bench: &Bench, row: &Planned, prepared: &mut Prepared) -> Result<Ran,
         let StepReport { iterations, factors } = match stepper.step() {
             Ok(report) => report,
             Err(error) => {
-                ran.notes.push(format!("stopped: {error}"));
+                ran.failure = Some(error.to_string());
                 break;
             }
         };

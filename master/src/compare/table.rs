@@ -28,10 +28,13 @@ pub struct Row {
     /// Their differences from the reference run, relative.
     #[serde(skip_serializing_if = "Option::is_none")]
     peak_differences: Option<[f64; 4]>,
-    /// Greatest differences of the four histories from the first row of equal step, relative.
+    /// Greatest differences of the four histories from the first row of equal step, relative to the greatest of all rows.
     #[serde(skip_serializing_if = "Option::is_none")]
     equal_step_differences: Option<[f64; 4]>,
     notes: Vec<String>,
+    /// Why it could not go on.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    failure: Option<String>,
 }
 
 /// All rows.
@@ -46,6 +49,8 @@ impl Table {
     /// From the rows and the run of a fine step.
     pub fn new(rows: &[Ran], truth: Option<&Ran>, watched: &Watched) -> Self {
         let quantities = || std::array::from_fn(|i| i);
+        // A row cut short before the train reaches the bridge has no peaks worth the name: the greatest of all rows count.
+        let greatest = |q: usize| rows.iter().map(|ran| ran.peak(q, f64::INFINITY)).fold(0.0, f64::max);
         let row = |(place, ran): (usize, &Ran)| {
             let until = |truth: &Ran| ran.reached().min(truth.reached());
             let relative = |truth: &Ran, q: usize| ran.peak(q, until(truth)) / truth.peak(q, until(truth)) - 1.0;
@@ -64,8 +69,10 @@ impl Table {
                 mean_factorisations: ran.factors as f64 / ran.taken.max(1) as f64,
                 peaks: quantities().map(|q: usize| ran.peak(q, f64::INFINITY)),
                 peak_differences: truth.map(|truth| quantities().map(|q: usize| relative(truth, q))),
-                equal_step_differences: equal.map(|other| quantities().map(|q: usize| ran.difference(other, q))),
+                equal_step_differences: equal
+                    .map(|other| quantities().map(|q: usize| ran.difference(other, q) / greatest(q))),
                 notes: ran.notes.clone(),
+                failure: ran.failure.clone(),
             }
         };
         Self {
@@ -150,7 +157,11 @@ impl Table {
             let differences: Vec<String> = differences.collect();
             let equal = row.equal_step_differences.map(|d| d.iter().copied().fold(0.0, f64::max));
             let equal = equal.filter(|d| d.is_finite()).map_or_else(String::new, |d| format!("{d:.1e}"));
-            let total = format!("{:.1}{}", row.total_cpu_s, if row.complete { "" } else { "*" });
+            let total = match (&row.failure, row.complete) {
+                (Some(_), _) => "–".into(),
+                (None, true) => format!("{:.1}", row.total_cpu_s),
+                (None, false) => format!("{:.1}*", row.total_cpu_s),
+            };
             say!(
                 "{:<24} {:>7.4} {:>8} {:>10.3e} {:>10} {:>6.2}   {}  {:>9}",
                 row.method,
@@ -163,7 +174,7 @@ impl Table {
                 equal
             );
         }
-        for row in self.rows.iter().filter(|row| !row.complete) {
+        for row in self.rows.iter().filter(|row| !row.complete && row.failure.is_none()) {
             say!(
                 "* {}: extrapolated from {} steps; its peaks are compared up to t = {:.4} s",
                 row.method,
@@ -172,7 +183,8 @@ impl Table {
             );
         }
         for row in &self.rows {
-            row.notes.iter().for_each(|note| say!("  {} at {:.4} ms: {note}", row.method, 1e3 * row.step_s));
+            let stopped = row.failure.iter().map(|why| format!("stopped: {why}"));
+            row.notes.iter().cloned().chain(stopped).for_each(|note| say!("  {} at {:.4} ms: {note}", row.method, 1e3 * row.step_s));
         }
         say!("  equal h: greatest difference of the four histories from the first row of the same step, relative");
         say!("  results in {}", folder.display());
