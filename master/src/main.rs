@@ -12,6 +12,8 @@ mod assign;
 mod build;
 mod check;
 mod cli;
+mod clock;
+mod compare;
 mod connect;
 mod coupled;
 mod error;
@@ -23,6 +25,7 @@ mod job;
 mod map;
 mod parameters;
 mod peaks;
+mod picture;
 mod plot;
 mod preload;
 mod probe;
@@ -68,6 +71,8 @@ fn execute(command: Command) -> Result<(), Error> {
             Ok(())
         }
         Command::Check(arguments) => check::check(&arguments),
+        Command::Accuracy(arguments) => compare::accuracy::accuracy(&arguments),
+        Command::Compare(arguments) => compare::compare(&arguments),
         Command::Inspect(arguments) => inspect::inspect(&arguments),
         Command::ExportSsp(arguments) => {
             say!("{}", system::export(&arguments)?.display());

@@ -68,6 +68,7 @@ impl Plot {
 
     /// Draws the picture; the message says what went wrong.
     pub fn draw(&self, path: &Path, title: &str) -> Result<(), String> {
+        crate::picture::register_letters();
         let root = SVGBackend::new(path, (1200, 1000)).into_drawing_area();
         self.draw_on(&root, title).map_err(|e| e.to_string())
     }

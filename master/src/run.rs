@@ -260,7 +260,7 @@ fn finish(
 }
 
 /// Set by Ctrl-C; the run then ends after the step it is in. A second Ctrl-C ends the program at once.
-fn stop_on_interrupt() -> Arc<AtomicBool> {
+pub fn stop_on_interrupt() -> Arc<AtomicBool> {
     let stop = Arc::new(AtomicBool::new(false));
     let flag = Arc::clone(&stop);
     // Without a handler Ctrl-C ends the program at once: no reason not to run.
@@ -275,9 +275,9 @@ fn stop_on_interrupt() -> Arc<AtomicBool> {
 }
 
 /// A progress bar on a terminal, nothing elsewhere.
-fn progress_bar(steps: u64, quiet: bool) -> ProgressBar {
+pub fn progress_bar(steps: u64, quiet: bool) -> ProgressBar {
     let target = if quiet { ProgressDrawTarget::hidden() } else { ProgressDrawTarget::stderr() };
     let bar = ProgressBar::with_draw_target(Some(steps), target);
-    let style = ProgressStyle::with_template("{bar:40} {pos}/{len} steps, {eta} left");
+    let style = ProgressStyle::with_template("{prefix}{bar:40} {pos}/{len} steps, {eta} left");
     bar.with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))
 }
