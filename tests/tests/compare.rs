@@ -72,7 +72,10 @@ fn a_row_that_costs_too_much_is_extrapolated_and_one_that_diverges_says_so() {
     assert!(done.status.success(), "{}", String::from_utf8_lossy(&done.stderr));
     let text = String::from_utf8_lossy(&done.stdout).into_owned();
     assert!(text.contains("* SCM, constant matrices: extrapolated from"), "{text}");
-    assert!(text.contains("LCM at 1.0000 ms: stopped: the step to t = 0.001 s: the iteration on the wheels' forces"), "{text}");
+    assert!(
+        text.contains("LCM at 1.0000 ms: stopped: the step to t = 0.001 s: the iteration on the wheels' forces"),
+        "{text}"
+    );
     let table = table(out.path());
     let row = &rows(&table)[0];
     assert_eq!((&row["complete"], &row["steps"]), (&Value::Bool(false), &Value::from(1100)));

@@ -45,7 +45,7 @@ fn generated(folder: &Path) -> Vec<PathBuf> {
     };
     let stayed = [12_000, 120_000, 1_200_000].map(|dofs| {
         let model = cable_stayed(&CableStayed { dofs, ..CableStayed::default() }).expect("a bridge");
-        write(format!("cable-stayed {dofs}"), text(&model), cable_stayed_scenario(&model, "bridge.json"))
+        write(format!("cable-stayed {dofs}"), text(&model), cable_stayed_scenario(&model, "bridge.json", None))
     });
     // Supports lie 0.545 m apart.
     let viaducts = [5, 51].map(|spans| {
