@@ -13,6 +13,7 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 use ttb_coupling::ModelError;
+use ttb_dynamics::factor::{Factor, FactorError};
 use ttb_dynamics::krylov::Krylov;
 use ttb_dynamics::newmark::{Motion, Newmark};
 use ttb_dynamics::reduction::{Answers, Shifted, reduce};
@@ -60,12 +61,14 @@ pub struct Built {
     pub accuracy: Accuracy,
 }
 
-/// Builds the model; B are the first `supports` of the `rows`, `stations` where they stand (m).
+/// Builds the model from the matrices and the factor of K₀; B are the first of the `rows`, one for each of the `stations`
+/// where the supports stand (m).
 ///
 /// # Errors
 /// Dashpots, which couple the modes; K̂ is not positive definite.
 pub fn build(
     pencil: &Arc<Pencil>,
+    stiffness: &Factor,
     law: &Law,
     newmark: Newmark,
     rows: &[Row],
@@ -80,29 +83,24 @@ pub fn build(
         let rule = "bridge: a reduced model needs damping of type rayleigh or none; with modal damping give `modes`";
         return Err(ModelError(rule.into()));
     }
-    let failed = |e: ttb_dynamics::factor::FactorError| ModelError(format!("bridge: {e}"));
+    let failed = |e: FactorError| ModelError(format!("bridge: {e}"));
     let supports = stations.len();
-    let stiffness = pencil.factor(1.0, 0.0, 0.0).map_err(failed)?;
     let sparse = Arc::new(Rows::new(rows));
     let full = Arc::new(Full::new(Arc::clone(pencil), None, Default::default()));
     let full = full.prepare(law, newmark, &sparse, supports).map_err(failed)?;
     let truth = probe(&*full, &sparse, stations, pencil.ndof(), newmark.h);
     drop(full);
-    let [a0, a1, ..] = newmark.a;
-    let (c_k, c_m) = (1.0 + a1 * law.beta, a0 + a1 * law.alpha);
+    let [c_k, c_m] = law.effective(&newmark);
     let mut hertz = wish.highest_frequency.unwrap_or(FIRST);
     // Between statics and a step, on a logarithmic scale.
     let between = std::f64::consts::TAU * hertz * (c_m / c_k).sqrt();
-    let answers = {
-        let shifts = [[1.0, 0.0], [1.0, between], [c_k, c_m]];
-        let factors = shifts.iter().map(|[c_k, c_m]| pencil.factor(*c_k, *c_m, 0.0)).collect::<Result<Vec<_>, _>>();
-        let factors = factors.map_err(failed)?;
-        let shifted = factors.iter().zip(shifts);
-        let combinations: Vec<Shifted> =
-            shifted.map(|(factor, [stiffness, mass])| Shifted { factor, stiffness, mass }).collect();
-        Answers::new(pencil, &combinations, rows, supports)
-    };
-    let mut krylov = Krylov::new(pencil, &stiffness, &rows[..supports]);
+    let mut answers = Answers::default();
+    answers.add(pencil, Shifted { factor: stiffness, stiffness: 1.0, mass: 0.0 }, rows, supports);
+    for [stiffness, mass] in [[1.0, between], [c_k, c_m]] {
+        let factor = pencil.factor(stiffness, mass, 0.0).map_err(failed)?;
+        answers.add(pencil, Shifted { factor: &factor, stiffness, mass }, rows, supports);
+    }
+    let mut krylov = Krylov::new(pencil, stiffness, &rows[..supports]);
     loop {
         let ritz = krylov.modes(std::f64::consts::TAU * hertz, MOST);
         let basis = reduce(&answers, &krylov, &ritz, rows, NEGLIGIBLE);
@@ -116,8 +114,8 @@ pub fn build(
         drop(stepper);
         let [displacement, acceleration] = [0, 1].map(|i| difference(&seen[i], &truth[i]));
         let accuracy = Accuracy { modes, pseudo_modes, highest_frequency: hertz, displacement, acceleration };
-        let enough = acceleration <= wish.error || wish.highest_frequency.is_some() || krylov.dimension() >= MOST;
-        if enough {
+        let chosen = wish.highest_frequency.is_some() || krylov.dimension() >= MOST;
+        if acceleration <= wish.error || chosen {
             let rows = Arc::unwrap_or_clone(shared);
             let system = Arc::into_inner(system).ok_or_else(|| ModelError("bridge: a model is held twice".into()))?;
             return Ok(Built { system, rows, accuracy });

@@ -61,16 +61,14 @@ struct Answer {
 }
 
 /// All that a reduction needs of the large model besides its modes.
+#[derive(Default)]
 pub struct Answers(Vec<Answer>);
 
 impl Answers {
-    /// To loads through B, the first `supports` of the `rows`, under each of the combinations.
-    pub fn new(pencil: &Pencil, combinations: &[Shifted], rows: &[Vec<(u32, f64)>], supports: usize) -> Self {
-        let answer = |shifted: &Shifted| {
-            let (seen, inertia) = responses(pencil, shifted.factor, &rows[..supports], rows);
-            Answer { stiffness: shifted.stiffness, mass: shifted.mass, seen, inertia }
-        };
-        Self(combinations.iter().map(answer).collect())
+    /// Adds those to loads through B, the first `supports` of the `rows`, under a combination.
+    pub fn add(&mut self, pencil: &Pencil, shifted: Shifted, rows: &[Vec<(u32, f64)>], supports: usize) {
+        let (seen, inertia) = responses(pencil, shifted.factor, &rows[..supports], rows);
+        self.0.push(Answer { stiffness: shifted.stiffness, mass: shifted.mass, seen, inertia });
     }
 }
 

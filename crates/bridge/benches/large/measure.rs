@@ -99,7 +99,8 @@ pub fn measure(scenario: &Path, reduce: Option<f64>, reducible: usize) -> Row {
         let wish = Reduction { highest_frequency: Some(hertz), ..Reduction::default() };
         let mut setup = 0.0;
         let built = timed("reduce", &mut setup, || {
-            reduction::build(&pencil, &law, newmark, &rows, &spec.supports, &wish).expect("a basis")
+            let factor = pencil.factor(1.0, 0.0, 0.0).expect("a factor");
+            reduction::build(&pencil, &factor, &law, newmark, &rows, &spec.supports, &wish).expect("a basis")
         });
         println!("{:?}", built.accuracy);
         let (system, shared) = (Arc::new(built.system), Arc::new(built.rows));
