@@ -25,6 +25,7 @@ pub mod snapshot;
 mod strategy;
 pub mod subsystem;
 mod trials;
+pub mod work;
 
 pub use in_process::InProcess;
 pub use instance::Instance;
@@ -34,3 +35,4 @@ pub use model::{Model, ModelError};
 pub use report::Report;
 pub use settings::{Method, OnFailure};
 pub use subsystem::{Failure, Subsystem};
+pub use work::Work;
