@@ -1,12 +1,12 @@
 //! From two FMU files to two coupled subsystems: variables of equal name are connected, or those that a list names.
 
-use std::collections::HashSet;
+use std::collections::{HashMap, HashSet};
 use std::path::Path;
 
-use ttb_coupling::{Coupling, Subsystem};
+use ttb_coupling::{Coupling, Settings, Subsystem};
 use ttb_fmi2::import::{Fmu, FmuInstance, FmuSubsystem, Linear, ModelDescription, VariableType};
 use ttb_scenario::Checked;
-use ttb_scenario::types::{CouplingSettings, Send};
+use ttb_scenario::types::Send;
 
 use crate::error::Error;
 use crate::isolate::{self, Isolated};
@@ -25,6 +25,7 @@ pub struct Connected {
 }
 
 /// A connected pair of variables, and the lines between each of them and the iteration.
+#[derive(Clone)]
 pub struct Wire {
     /// An output of one FMU.
     pub output: String,
@@ -61,7 +62,7 @@ pub fn connect(
     if let Some(map) = map {
         let wiring = map.wiring(train_track.description(), bridge.description())?;
         let warnings = checked.warnings.clone();
-        return couple(train_track, bridge, &wiring, &checked.scenario.coupling, checked.axle_load, warnings);
+        return couple(train_track, bridge, &wiring, checked.settings(), checked.scenario.coupling.send, warnings);
     }
     let forces = shared(train_track.description(), bridge.description());
     let motions = shared(bridge.description(), train_track.description());
@@ -85,7 +86,7 @@ pub fn connect(
     }
     let equal = |names: Vec<String>| names.into_iter().map(Wire::equal).collect();
     let wiring = Wiring { forces: equal(forces), motions: equal(motions) };
-    couple(train_track, bridge, &wiring, &checked.scenario.coupling, checked.axle_load, warnings)
+    couple(train_track, bridge, &wiring, checked.settings(), checked.scenario.coupling.send, warnings)
 }
 
 impl Wire {
@@ -95,16 +96,15 @@ impl Wire {
     }
 }
 
-/// Couples two FMUs in initialization mode by explicit wiring; `force_scale` is that of the tolerance, N.
+/// Couples two FMUs in initialization mode by explicit wiring.
 pub fn couple(
     train_track: FmuInstance,
     bridge: FmuInstance,
     wiring: &Wiring,
-    coupling: &CouplingSettings,
-    force_scale: f64,
+    settings: Settings,
+    send: Send,
     mut warnings: Vec<String>,
 ) -> Result<Connected, Error> {
-    let settings = coupling.settings(force_scale);
     if settings.max_iterations > 1 && !train_track.can_restore() {
         return Err(Error::Input(format!(
             "{} cannot save and restore its state (canGetAndSetFMUstate), so its steps cannot be repeated; one pass a step is \
@@ -119,19 +119,57 @@ pub fn couple(
             bridge.name()
         ));
     }
-    if coupling.send == Send::Rate && !bridge.can_interpolate() {
+    if send == Send::Rate && !bridge.can_interpolate() {
         let name = bridge.name();
         return Err(Error::Input(format!(
             "coupling.send is rate, but {name} cannot interpolate inputs: use auto or mean"
         )));
     }
-    let train_track = subsystem(train_track, &wiring.motions, &wiring.forces)?;
+    let displacements = displacements(wiring);
+    let means = if settings.mean_forces { Some(means(&train_track, &wiring.forces)?) } else { None };
+    let train_track = subsystem(train_track, &wiring.motions, means.as_deref().unwrap_or(&wiring.forces))?;
     let bridge = subsystem(bridge, &wiring.forces, &wiring.motions)?;
     if !train_track.can_interpolate() {
         warnings.push("the train–track FMU cannot interpolate inputs: the deck's motion is sent as held means".into());
     }
     let coupling = Coupling::new(wiring.forces.len(), wiring.motions.len(), settings);
+    let coupling = coupling.with_displacements(displacements);
     Ok(Connected { train_track, bridge, coupling, warnings })
+}
+
+/// The train–track FMU's outputs `….force` replaced by `….mean_force`, which sub-steps send.
+fn means(train_track: &FmuInstance, forces: &[Wire]) -> Result<Vec<Wire>, Error> {
+    let refused = |why: String| Err(Error::Input(format!("{}: several sub-steps need {why}", train_track.name())));
+    if !train_track.can_interpolate() {
+        return refused("inputs that can be interpolated (canInterpolateInputs)".into());
+    }
+    let mut wires = forces.to_vec();
+    for wire in &mut wires {
+        wire.output = mean(&wire.output);
+        if train_track.description().variable(&wire.output).is_none() {
+            return refused(format!("an output {}", wire.output));
+        }
+    }
+    Ok(wires)
+}
+
+/// Where each force finds its displacement among the motions, by the train–track FMU's names `….force` and
+/// `….displacement`; none if they are called otherwise.
+fn displacements(wiring: &Wiring) -> Vec<usize> {
+    let places: HashMap<&str, usize> =
+        wiring.motions.iter().enumerate().map(|(i, wire)| (wire.input.as_str(), i)).collect();
+    let of_force = |wire: &Wire| places.get(format!("{}.displacement", place(&wire.output)).as_str()).copied();
+    wiring.forces.iter().map(of_force).collect::<Option<_>>().unwrap_or_default()
+}
+
+/// The output with the mean over a step of a force, `support[3].force`.
+pub fn mean(force: &str) -> String {
+    format!("{}.mean_force", place(force))
+}
+
+/// `support[3]` of `support[3].force`.
+fn place(name: &str) -> &str {
+    name.rsplit_once('.').map_or(name, |(place, _)| place)
 }
 
 /// One side, by the wires to it and from it.

@@ -8,6 +8,7 @@ macro_rules! say {
     }};
 }
 
+mod auto;
 mod build;
 mod check;
 mod cli;
@@ -25,6 +26,7 @@ mod map;
 mod peaks;
 mod picture;
 mod plot;
+mod probe;
 mod record;
 mod run;
 mod series;
@@ -51,7 +53,7 @@ fn execute(command: Command) -> Result<(), Error> {
     match command {
         Command::Run(arguments) => run::run(&arguments),
         Command::Build(arguments) => {
-            let checked = build::scenario(arguments.scenario.as_deref())?;
+            let checked = build::decided(arguments.scenario.as_deref())?;
             let built = build::build(&checked, &arguments.output)?;
             say!("{}\n{}", built.train_track.display(), built.bridge.display());
             Ok(())

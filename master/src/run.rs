@@ -10,6 +10,7 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use ttb_coupling::run::{TimeAxis, run as run_steps};
 use ttb_fmi2::import::FmuSubsystem;
 
+use crate::auto;
 use crate::build;
 use crate::cli::Run;
 use crate::connect::{Connected, connect};
@@ -38,11 +39,15 @@ pub fn run(arguments: &Run) -> Result<(), Error> {
 }
 
 fn run_scenario(arguments: &Run, isolated: &Isolated) -> Result<(), Error> {
-    let checked = build::scenario(arguments.scenario.as_deref())?;
+    let mut checked = build::scenario(arguments.scenario.as_deref())?;
     for given in [&arguments.train_track, &arguments.bridge].into_iter().flatten() {
         std::fs::File::open(given).map_err(|e| Error::Input(format!("{}: {e}", given.display())))?;
     }
     let map = arguments.map.as_deref().map(Map::load).transpose()?;
+    if arguments.train_track.is_some() && checked.scenario.time.step.given().is_none() {
+        return Err(Error::Input("a step is chosen for our train and track: with --train-track give time.step".into()));
+    }
+    let choice = auto::choose(&mut checked, arguments.bridge.as_deref(), isolated, map.as_ref())?;
     let folder = &arguments.output;
     std::fs::create_dir_all(folder).map_err(Error::io(folder))?;
     let train_track = arguments.train_track.clone().map_or_else(|| build::train_track(&checked, folder), Ok)?;
@@ -52,7 +57,7 @@ fn run_scenario(arguments: &Run, isolated: &Isolated) -> Result<(), Error> {
     for warning in &connected.warnings[checked.warnings.len()..] {
         eprintln!("ttb: warning: {warning}");
     }
-    run_connected(&Job::from(&checked), connected, arguments, &stop, begin)
+    run_connected(&Job::new(&checked, choice), connected, arguments, &stop, begin)
 }
 
 fn run_system(path: &Path, arguments: &Run, isolated: &Isolated) -> Result<(), Error> {
@@ -97,6 +102,9 @@ fn run_connected(
     let outcome = simulate(&mut connected, axis, &mut log, stop, begin, &mut seconds);
     log.bar.finish_and_clear();
     let outcome = outcome.and(log.recorder.flush());
+    if let Some(choice) = &job.choice {
+        log.peaks.estimate(choice);
+    }
     finish(job, &log, outcome, seconds, &connected, folder, arguments.quiet)
 }
 

@@ -72,7 +72,10 @@ fn a_row_that_costs_too_much_is_extrapolated_and_one_that_diverges_says_so() {
     assert!(done.status.success(), "{}", String::from_utf8_lossy(&done.stderr));
     let text = String::from_utf8_lossy(&done.stdout).into_owned();
     assert!(text.contains("* SCM, constant matrices: extrapolated from"), "{text}");
-    assert!(text.contains("LCM at 1.0000 ms: stopped: the step to t = 0.001 s: the iteration on the wheels' forces"), "{text}");
+    assert!(
+        text.contains("LCM at 1.0000 ms: stopped: the step to t = 0.001 s: the iteration on the wheels' forces"),
+        "{text}"
+    );
     let table = table(out.path());
     let row = &rows(&table)[0];
     assert_eq!((&row["complete"], &row["steps"]), (&Value::Bool(false), &Value::from(1100)));
@@ -90,7 +93,7 @@ fn bad_questions_are_answered_with_exit_code_2() {
         (["--car", "2"], "--car is 2; the train has 1 to 1"),
         (["--wheel", "0"], "--wheel is 0; the train has 1 to 4"),
         (["--steps", "0"], "a positive number of seconds is wanted"),
-        (["--budget", "-1"], "--budget"),
+        (["--budget", "0"], "a positive number of seconds is wanted"),
         (["--methods", "magic"], "possible values: scm, schur, lcm, lcm-relaxed, hsa"),
     ] {
         let done = compare(out.path(), &arguments);

@@ -96,20 +96,18 @@ fn cpu() -> f64 {
 
 /// Least seconds of a step with two trials.
 fn run(step: &dyn Step, unknowns: usize, supports: usize) -> f64 {
-    let (mut base, mut next, mut work) = (Base::default(), Motion::default(), Work::default());
+    let (mut base, mut next, mut work) = (Base::default(), Base::default(), Work::default());
     base.motion = Motion::rest(unknowns);
-    let (mut seen, forces) = (Vec::new(), vec![1e4; supports]);
+    step.begin(&mut base, &mut work);
+    let (mut seen, forces) = (Motion::default(), vec![1e4; supports]);
     let mut best = f64::INFINITY;
     for _ in 0..30 {
         let begin = Instant::now();
-        step.begin(&mut base, &mut work);
         if let Some(compliance) = step.compliance() {
-            (0..2).for_each(|_| ttb_bridge::lazy::answer(compliance, &base, &forces, &mut seen));
+            (0..2).for_each(|_| base.answer(compliance, step.newmark(), &forces, &mut seen));
         }
-        step.solve(&base, &forces, &mut next.u, &mut work);
-        [&mut next.v, &mut next.a].into_iter().for_each(|x| x.resize(unknowns, 0.0));
-        step.newmark().finish_all(&base.motion, &mut next);
-        std::mem::swap(&mut base.motion, &mut next);
+        step.proceed(&base, &forces, &mut next, &mut work);
+        std::mem::swap(&mut base, &mut next);
         best = best.min(begin.elapsed().as_secs_f64());
     }
     best

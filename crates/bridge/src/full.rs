@@ -20,7 +20,7 @@ use ttb_dynamics::damping::modal_correction;
 use ttb_dynamics::dense::Dense;
 use ttb_dynamics::factor::{Factor, FactorError};
 use ttb_dynamics::modes::Modes;
-use ttb_dynamics::newmark::Newmark;
+use ttb_dynamics::newmark::{Motion, Newmark};
 use ttb_dynamics::sparse::Pencil;
 use ttb_dynamics::vector::{add_scaled, dot};
 
@@ -160,6 +160,24 @@ impl FullStep {
     }
 }
 
+impl FullStep {
+    /// From R K̂⁻¹p to r⁰, with ṙ⁰ and r̈⁰ that belong to it.
+    fn see(&self, supports: usize, base: &mut Base) {
+        let Base { motion: Motion { u, v, a }, known, free, before, .. } = base;
+        [&mut free.v, &mut free.a, before].into_iter().for_each(Vec::clear);
+        for (i, r) in free.u.iter_mut().enumerate() {
+            *r += self.rows.dot(i, known);
+            let [u, v, a] = [&*u, v, a].map(|x| self.rows.dot(i, x));
+            let (velocity, acceleration) = self.newmark.finish(*r, u, v, a);
+            free.v.push(velocity);
+            if i >= supports {
+                free.a.push(acceleration);
+                before.push(v);
+            }
+        }
+    }
+}
+
 impl Step for FullStep {
     fn newmark(&self) -> &Newmark {
         &self.newmark
@@ -174,6 +192,7 @@ impl Step for FullStep {
         base.amplitudes.extend(self.shapes().iter().map(|shape| dot(shape, &load)));
         if let Some(lazy) = &self.lazy {
             lazy.begin(&self.factor, base, &mut load, work);
+            self.see(lazy.supports(), base);
         }
         base.load = load;
     }

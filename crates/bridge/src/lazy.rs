@@ -12,7 +12,6 @@
 
 use ttb_dynamics::dense::Dense;
 use ttb_dynamics::factor::Factor;
-use ttb_dynamics::newmark::Motion;
 use ttb_dynamics::supernodal::{Numbers, Pattern};
 use ttb_dynamics::sweeps::{LANES, Which};
 
@@ -59,6 +58,11 @@ impl Lazy {
         Some(Self { rows: permuted, supports, of_rows, of_supports, compliance, corrected })
     }
 
+    /// Rows of B.
+    pub fn supports(&self) -> usize {
+        self.supports
+    }
+
     /// Panels that R reaches.
     pub fn reach(&self) -> &[u32] {
         &self.of_rows
@@ -95,7 +99,7 @@ impl Lazy {
         &self.compliance
     }
 
-    /// From p in `load` to y there, and r⁰.
+    /// From p in `load` to y there, and R K̂⁻¹p.
     pub fn begin(&self, factor: &Factor, base: &mut Base, load: &mut Vec<f64>, work: &mut Work) {
         let Some((pattern, numbers)) = factor.panels() else { return };
         pattern.gather(load, &mut work.y);
@@ -104,17 +108,11 @@ impl Lazy {
         // Only the reach is read again: everything else may stay.
         work.y.copy_from_slice(load);
         pattern.backward(numbers, &mut work.y, &mut work.buffer, Which::Some(&self.of_rows));
-        pattern.gather(&base.known, &mut work.x);
-        base.free.clear();
-        base.free.extend((0..self.rows.len()).map(|i| self.rows.dot(i, &work.y) + self.rows.dot(i, &work.x)));
+        let free = &mut base.free.u;
+        free.clear();
+        free.extend((0..self.rows.len()).map(|i| self.rows.dot(i, &work.y)));
         for (corrected, amplitude) in self.corrected.iter().zip(&base.amplitudes) {
-            base.free.iter_mut().zip(corrected).for_each(|(r, c)| *r -= c * amplitude);
-        }
-        let Motion { u, v, a } = &base.motion;
-        for (of_rows, of_motion) in [(&mut base.rows.u, u), (&mut base.rows.v, v), (&mut base.rows.a, a)] {
-            pattern.gather(of_motion, &mut work.x);
-            of_rows.clear();
-            of_rows.extend((0..self.rows.len()).map(|i| self.rows.dot(i, &work.x)));
+            free.iter_mut().zip(corrected).for_each(|(r, c)| *r -= c * amplitude);
         }
     }
 
@@ -164,11 +162,4 @@ fn compliance(pattern: &Pattern, numbers: &Numbers, rows: &Rows, supports: usize
         }
     }
     s
-}
-
-/// r₁ = r⁰ + S f.
-pub fn answer(compliance: &Dense, base: &Base, forces: &[f64], r: &mut Vec<f64>) {
-    r.resize(base.free.len(), 0.0);
-    compliance.multiply([forces], [r]);
-    r.iter_mut().zip(&base.free).for_each(|(r, free)| *r += free);
 }

@@ -85,7 +85,7 @@ impl Lockstep {
 
     /// r₁ of one run under its forces f₁, between `begin` and `finish`.
     pub fn trial(&self, run: usize, forces: &[f64], r: &mut [f64]) {
-        self.compliance().multiply([forces], [&mut *r]);
+        self.compliance().multiply(forces, r);
         r.iter_mut().zip(self.free.chunks_exact(LANES)).for_each(|(r, free)| *r += free[run]);
     }
 

@@ -16,7 +16,6 @@ use ttb_coupling::ModelError;
 use ttb_dynamics::newmark::Motion;
 use ttb_dynamics::pool::Pool;
 
-use crate::lazy::answer;
 use crate::state::{Data, Pending, State};
 use crate::steps::Steps;
 use crate::structure::Structure;
@@ -41,7 +40,7 @@ pub struct Forces<'a> {
 pub struct Seen {
     /// R u, R u̇, R ü at its end; of the supports' ü nothing is asked.
     pub end: Motion,
-    /// R u̇ at its begin.
+    /// R u̇ at its begin; of the supports' nothing is asked.
     pub velocity_before: Vec<f64>,
 }
 
@@ -89,23 +88,27 @@ impl March {
     }
 
     /// The base of a step of `size` from `state`.
-    fn base(&mut self, step: &dyn Step, state: &State, size: f64) -> Arc<Base> {
+    fn base(&mut self, step: &Arc<dyn Step>, state: &State, size: f64) -> Arc<Base> {
         if let Some(at) = self.kept.iter().position(|k| Arc::ptr_eq(&k.state, state) && k.size == size) {
             self.kept[..=at].rotate_right(1);
             return Arc::clone(&self.kept[0].base);
         }
-        let base = self.new_base(step, |motion, work| state.complete(motion, work));
+        let base = self.new_base(|base, work| match &state.pending {
+            Some(before) if Arc::ptr_eq(&before.step, step) => step.proceed(&before.base, &state.force, base, work),
+            _ => {
+                state.complete(&mut base.motion, work);
+                step.begin(base, work);
+            }
+        });
         self.kept.truncate(KEPT - 1);
         self.kept.insert(0, Kept { state: Arc::clone(state), size, base: Arc::clone(&base) });
         base
     }
 
-    /// A base from the motion that `fill` writes.
-    fn new_base(&mut self, step: &dyn Step, fill: impl FnOnce(&mut Motion, &mut Work)) -> Arc<Base> {
+    fn new_base(&mut self, fill: impl FnOnce(&mut Base, &mut Work)) -> Arc<Base> {
         let mut base = self.bases.take(Base::default);
         if let Some(own) = Arc::get_mut(&mut base) {
-            fill(&mut own.motion, &mut self.work);
-            step.begin(own, &mut self.work);
+            fill(own, &mut self.work);
         }
         self.bases.give(&base);
         base
@@ -133,11 +136,14 @@ impl March {
         let step = self.steps.get(size, structure, &self.law)?;
         new.force.clone_from(&old.force);
         new.pending = None;
-        let mut base = self.base(&*step, old, size);
+        let mut base = self.base(&step, old, size);
         self.seen.velocity_before(structure, &*step, &base);
         for i in 1..=count {
             if i > 1 {
-                base = self.new_base(&*step, |motion, _| std::mem::swap(motion, &mut new.motion));
+                base = self.new_base(|base, work| {
+                    std::mem::swap(&mut base.motion, &mut new.motion);
+                    step.begin(base, work);
+                });
             }
             match forces.rates {
                 Some(rates) => {
@@ -149,18 +155,10 @@ impl March {
             }
             match step.compliance() {
                 Some(compliance) if i == count => {
-                    let end = &mut self.seen.end;
-                    answer(compliance, &base, &new.force, &mut end.u);
-                    [&mut end.v, &mut end.a].into_iter().for_each(|x| x.resize(base.free.len(), 0.0));
-                    step.newmark().finish_all(&base.rows, end);
+                    base.answer(compliance, step.newmark(), &new.force, &mut self.seen.end);
                     new.pending = Some(Pending { base: Arc::clone(&base), step: Arc::clone(&step) });
                 }
-                _ => {
-                    let Motion { u, v, a } = &mut new.motion;
-                    step.solve(&base, &new.force, u, &mut self.work);
-                    [v, a].into_iter().for_each(|x| x.resize(u.len(), 0.0));
-                    step.newmark().finish_all(&base.motion, &mut new.motion);
-                }
+                _ => step.finish(&base, &new.force, &mut new.motion, &mut self.work),
             }
         }
         if new.pending.is_none() {
@@ -175,7 +173,8 @@ impl Seen {
     pub fn read(&mut self, structure: &Structure, motion: &Motion) {
         let rows = &structure.rows;
         [&mut self.end.u, &mut self.end.v, &mut self.end.a].into_iter().for_each(|x| x.resize(rows.len(), 0.0));
-        rows.multiply([&motion.u, &motion.v], [&mut self.end.u, &mut self.end.v]);
+        rows.multiply(&motion.u, &mut self.end.u);
+        rows.multiply(&motion.v, &mut self.end.v);
         for i in structure.supports..rows.len() {
             self.end.a[i] = rows.dot(i, &motion.a);
         }
@@ -185,7 +184,7 @@ impl Seen {
         let rows = &structure.rows;
         self.velocity_before.resize(rows.len(), 0.0);
         if step.compliance().is_some() {
-            self.velocity_before.copy_from_slice(&base.rows.v);
+            self.velocity_before[structure.supports..].copy_from_slice(&base.before);
         } else {
             for i in structure.supports..rows.len() {
                 self.velocity_before[i] = rows.dot(i, &base.motion.v);

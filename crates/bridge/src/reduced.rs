@@ -4,7 +4,8 @@
 //! m η̈_j + m c_j η̇_j + k ω_j² η_j = φ_jᵀ f      c_j = α + β (k/m) ω_j²   or   2ζω_j
 //! ```
 //!
-//! What the outside sees is dense here: RΦ. So a step reads it twice, for r⁰ and for Φᵀ f, and repetitions read S.
+//! What the outside sees is dense here: R φ_j of every coordinate. A step reads these once: as the equations stand alone,
+//! one pass ends a step and begins the next, coordinate by coordinate. Repetitions read S.
 
 use std::sync::Arc;
 
@@ -60,21 +61,12 @@ impl System for Reduced {
             rates.iter().zip(&self.omega2).map(|(c, w2)| 1.0 / (law.stiffness * w2 + law.mass * (a0 + a1 * c)));
         let inverse: Vec<f64> = inverse.collect();
         // S pays where it is smaller than RΦ.
-        let compliance = (supports < inverse.len()).then(|| compliance(rows, supports, &inverse));
+        let compliance = match &**rows {
+            Rows::Modal(shapes) if supports < inverse.len() => Some(shapes.weighted_gram(&inverse, supports)),
+            _ => None,
+        };
         Ok(Arc::new(ReducedStep { newmark, mass: law.mass, inverse, rates, rows: Arc::clone(rows), compliance }))
     }
-}
-
-/// S = RΦ diag(1/K̂) (BΦ)ᵀ.
-fn compliance(rows: &Rows, supports: usize, inverse: &[f64]) -> Dense {
-    let mut s = Dense::zeros(rows.len(), supports);
-    for j in 0..supports {
-        let mut column = vec![0.0; inverse.len()];
-        rows.add_row(j, 1.0, &mut column);
-        column.iter_mut().zip(inverse).for_each(|(x, inverse)| *x *= inverse);
-        (0..rows.len()).for_each(|i| s.row_mut(i)[j] = rows.dot(i, &column));
-    }
-    s
 }
 
 struct ReducedStep {
@@ -89,24 +81,50 @@ struct ReducedStep {
     compliance: Option<Dense>,
 }
 
+impl ReducedStep {
+    /// p_j: what m and c multiply at the step's begin.
+    fn owed(&self, j: usize, u: f64, v: f64, a: f64) -> f64 {
+        self.mass * (self.newmark.inertia(u, v, a) + self.rates[j] * self.newmark.damping(u, v, a))
+    }
+
+    /// η_j, η̇_j, η̈_j at the step's end without forces, and η̇_j at its begin.
+    fn free(&self, j: usize, load: f64, u: f64, v: f64, a: f64) -> [f64; 4] {
+        let end = load * self.inverse[j];
+        let (velocity, acceleration) = self.newmark.finish(end, u, v, a);
+        [end, velocity, acceleration, v]
+    }
+
+    /// RΦ and S, where repetitions go through S.
+    fn shapes(&self) -> Option<(&Dense, &Dense)> {
+        match (&*self.rows, &self.compliance) {
+            (Rows::Modal(shapes), Some(compliance)) => Some((shapes, compliance)),
+            _ => None,
+        }
+    }
+}
+
+/// What [`Base`] says of the rows, all zero, in the order of [`ReducedStep::free`].
+fn unseen<'a>(free: &'a mut Motion, before: &'a mut Vec<f64>, rows: usize, supports: usize) -> [&'a mut [f64]; 4] {
+    let monitors = rows - supports;
+    [(&mut free.u, rows), (&mut free.v, rows), (&mut free.a, monitors), (before, monitors)].map(|(r, length)| {
+        r.clear();
+        r.resize(length, 0.0);
+        &mut r[..]
+    })
+}
+
 impl Step for ReducedStep {
     fn newmark(&self) -> &Newmark {
         &self.newmark
     }
 
-    fn begin(&self, base: &mut Base, work: &mut Work) {
-        let n = self.inverse.len();
-        let Base { motion: Motion { u, v, a }, load, known, rows, free, .. } = base;
-        [&mut *load, known, &mut work.x].into_iter().for_each(|x| x.resize(n, 0.0));
-        for ((load, c), ((u, v), a)) in load.iter_mut().zip(&self.rates).zip(u.iter().zip(&*v).zip(&*a)) {
-            *load = self.mass * (self.newmark.inertia(*u, *v, *a) + c * self.newmark.damping(*u, *v, *a));
-        }
-        if self.compliance.is_some() {
-            work.x.iter_mut().zip(&*load).zip(&self.inverse).for_each(|((x, load), inverse)| *x = load * inverse);
-            [&mut rows.u, &mut rows.v, &mut rows.a, &mut *free]
-                .into_iter()
-                .for_each(|r| r.resize(self.rows.len(), 0.0));
-            self.rows.multiply([u, v, a, &work.x], [&mut rows.u, &mut rows.v, &mut rows.a, free]);
+    fn begin(&self, base: &mut Base, _work: &mut Work) {
+        let Base { motion: Motion { u, v, a }, load, free, before, .. } = base;
+        load.resize(u.len(), 0.0);
+        load.iter_mut().enumerate().for_each(|(j, p)| *p = self.owed(j, u[j], v[j], a[j]));
+        if let Some((shapes, compliance)) = self.shapes() {
+            let weights = |j: usize, _| self.free(j, load[j], u[j], v[j], a[j]);
+            shapes.fold(&[], weights, unseen(free, before, shapes.columns(), compliance.columns()));
         }
     }
 
@@ -115,9 +133,25 @@ impl Step for ReducedStep {
     }
 
     fn solve(&self, base: &Base, forces: &[f64], u: &mut Vec<f64>, _work: &mut Work) {
-        u.resize(self.inverse.len(), 0.0);
-        u.copy_from_slice(&base.load);
+        u.clone_from(&base.load);
         self.rows.add_transposed(forces, u);
         u.iter_mut().zip(&self.inverse).for_each(|(x, inverse)| *x *= inverse);
+    }
+
+    fn proceed(&self, base: &Base, forces: &[f64], next: &mut Base, work: &mut Work) {
+        let Some((shapes, compliance)) = self.shapes() else {
+            self.finish(base, forces, &mut next.motion, work);
+            return self.begin(next, work);
+        };
+        let Base { motion: Motion { u, v, a }, load, free, before, .. } = next;
+        [&mut *u, v, a, load].into_iter().for_each(|x| x.resize(self.inverse.len(), 0.0));
+        let old = &base.motion;
+        let weights = |j: usize, p: f64| {
+            u[j] = (base.load[j] + p) * self.inverse[j];
+            (v[j], a[j]) = self.newmark.finish(u[j], old.u[j], old.v[j], old.a[j]);
+            load[j] = self.owed(j, u[j], v[j], a[j]);
+            self.free(j, load[j], u[j], v[j], a[j])
+        };
+        shapes.fold(forces, weights, unseen(free, before, shapes.columns(), compliance.columns()));
     }
 }

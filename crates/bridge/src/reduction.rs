@@ -108,7 +108,7 @@ pub fn build(
         let basis = reduce(&answers, &krylov, &ritz, rows, NEGLIGIBLE);
         let modes = basis.modes;
         let pseudo_modes = basis.omega2.len() - modes;
-        let rows = Rows::Dense(basis.rows);
+        let rows = Rows::Modal(basis.shapes);
         let system = Arc::new(Reduced::new(basis.omega2));
         let shared = Arc::new(rows);
         let stepper = Arc::clone(&system).prepare(law, newmark, &shared, supports).map_err(failed)?;
@@ -136,11 +136,9 @@ fn probe(step: &dyn Step, rows: &Rows, stations: &[f64], unknowns: usize, h: f64
     for n in 1..=PROBE {
         load(stations, n as f64 * h, &mut forces);
         step.begin(&mut base, &mut work);
-        step.solve(&base, &forces, &mut next.u, &mut work);
-        [&mut next.v, &mut next.a].into_iter().for_each(|x| x.resize(unknowns, 0.0));
-        step.newmark().finish_all(&base.motion, &mut next);
+        step.finish(&base, &forces, &mut next, &mut work);
         for (values, kept) in [(&next.u, &mut displacements), (&next.a, &mut accelerations)] {
-            rows.multiply([values], [&mut seen]);
+            rows.multiply(values, &mut seen);
             kept.extend_from_slice(&seen);
         }
         std::mem::swap(&mut base.motion, &mut next);

@@ -1,11 +1,10 @@
 //! Rows of weights over the unknowns: what the outside sees of the structure, and where its forces act.
 
 use ttb_dynamics::dense::Dense;
-use ttb_dynamics::vector::{add_scaled, dot};
 
 use crate::deck::Row;
 
-/// A list of rows: sparse over degrees of freedom, or dense over modal coordinates.
+/// A list of rows: sparse over degrees of freedom, or dense over modal coordinates φ_j.
 #[derive(Clone, Debug)]
 pub enum Rows {
     /// Compressed: row i has the columns and weights from `starts[i]` to `starts[i + 1]`.
@@ -17,8 +16,8 @@ pub enum Rows {
         /// Their weights.
         weights: Vec<f64>,
     },
-    /// Every row in full.
-    Dense(Dense),
+    /// Coordinate by coordinate: row j is R φ_j.
+    Modal(Dense),
 }
 
 impl Rows {
@@ -38,7 +37,7 @@ impl Rows {
     pub fn len(&self) -> usize {
         match self {
             Self::Sparse { starts, .. } => starts.len() - 1,
-            Self::Dense(rows) => rows.rows(),
+            Self::Modal(shapes) => shapes.columns(),
         }
     }
 
@@ -47,19 +46,19 @@ impl Rows {
         self.len() == 0
     }
 
-    /// Degrees of freedom of a sparse row; of a dense one none.
+    /// Degrees of freedom of a sparse row; of modal coordinates none.
     pub fn columns(&self, i: usize) -> &[u32] {
         match self {
             Self::Sparse { starts, columns, .. } => &columns[starts[i] as usize..starts[i + 1] as usize],
-            Self::Dense(_) => &[],
+            Self::Modal(_) => &[],
         }
     }
 
-    /// Weights of a sparse row in the order of its columns; all of a dense one.
+    /// Weights of a sparse row in the order of its columns.
     pub fn weights(&self, i: usize) -> &[f64] {
         match self {
             Self::Sparse { starts, weights, .. } => &weights[starts[i] as usize..starts[i + 1] as usize],
-            Self::Dense(rows) => rows.row(i),
+            Self::Modal(_) => &[],
         }
     }
 
@@ -70,39 +69,38 @@ impl Rows {
                 let row = self.columns(i).iter().zip(self.weights(i));
                 row.map(|(&column, weight)| weight * u[column as usize]).sum()
             }
-            Self::Dense(rows) => dot(rows.row(i), u),
+            Self::Modal(shapes) => u.iter().enumerate().map(|(j, u)| shapes.row(j)[i] * u).sum(),
         }
     }
 
-    /// All rows times several u; dense rows are read once.
-    pub fn multiply<const N: usize>(&self, u: [&[f64]; N], r: [&mut [f64]; N]) {
+    /// r ← R u.
+    pub fn multiply(&self, u: &[f64], r: &mut [f64]) {
         match self {
-            Self::Sparse { .. } => {
-                for (r, u) in r.into_iter().zip(u) {
-                    r.iter_mut().enumerate().for_each(|(i, r)| *r = self.dot(i, u));
-                }
+            Self::Sparse { .. } => r.iter_mut().enumerate().for_each(|(i, r)| *r = self.dot(i, u)),
+            Self::Modal(shapes) => {
+                r.fill(0.0);
+                shapes.add_transposed(u, r);
             }
-            Self::Dense(rows) => rows.multiply(u, r),
-        }
-    }
-
-    /// load ← load + f · row i.
-    pub fn add_row(&self, i: usize, f: f64, load: &mut [f64]) {
-        match self {
-            Self::Sparse { .. } => {
-                for (&column, weight) in self.columns(i).iter().zip(self.weights(i)) {
-                    load[column as usize] += weight * f;
-                }
-            }
-            Self::Dense(rows) => add_scaled(f, rows.row(i), load),
         }
     }
 
     /// load ← load + Bᵀ f, B the first rows, as many as there are forces.
     pub fn add_transposed(&self, f: &[f64], load: &mut [f64]) {
         match self {
-            Self::Sparse { .. } => f.iter().enumerate().for_each(|(i, f)| self.add_row(i, *f, load)),
-            Self::Dense(rows) => rows.add_transposed(f, load),
+            Self::Sparse { .. } => {
+                for (i, f) in f.iter().enumerate() {
+                    let row = self.columns(i).iter().zip(self.weights(i));
+                    row.for_each(|(&column, weight)| load[column as usize] += weight * f);
+                }
+            }
+            Self::Modal(shapes) => shapes.fold(
+                f,
+                |j, p| {
+                    load[j] += p;
+                    []
+                },
+                [],
+            ),
         }
     }
 
@@ -113,8 +111,8 @@ impl Rows {
 
     /// The same rows over modal coordinates: R Φ.
     pub fn project(&self, shapes: &[Vec<f64>]) -> Self {
-        let numbers = (0..self.len()).flat_map(|i| shapes.iter().map(move |shape| self.dot(i, shape)));
-        Self::Dense(Dense::new(shapes.len(), numbers.collect()))
+        let numbers = shapes.iter().flat_map(|shape| (0..self.len()).map(|i| self.dot(i, shape)));
+        Self::Modal(Dense::new(self.len(), numbers.collect()))
     }
 
     /// The same sparse rows over unknowns in another order: column c becomes `position[c]`.

@@ -41,12 +41,7 @@ impl Data {
     pub fn complete(&self, motion: &mut Motion, work: &mut Work) {
         match &self.pending {
             None => motion.clone_from(&self.motion),
-            Some(Pending { base, step }) => {
-                step.solve(base, &self.force, &mut motion.u, work);
-                let n = motion.u.len();
-                [&mut motion.v, &mut motion.a].into_iter().for_each(|x| x.resize(n, 0.0));
-                step.newmark().finish_all(&base.motion, motion);
-            }
+            Some(Pending { base, step }) => step.finish(base, &self.force, motion, work),
         }
     }
 

@@ -20,7 +20,7 @@ use crate::system::System;
 /// Name of the file.
 pub const FILE: &str = "bridge.bin";
 /// Changes when the layout does.
-const VERSION: u32 = 1;
+const VERSION: u32 = 2;
 
 /// The file's content (postcard's format).
 #[derive(Serialize, Deserialize)]
@@ -44,7 +44,7 @@ pub struct Stored {
 #[derive(Serialize, Deserialize)]
 enum Equations {
     Full { raw: Raw, modes: Vec<Vec<f64>>, starts: Vec<u32>, columns: Vec<u32>, weights: Vec<f64> },
-    Reduced { omega2: Vec<f64>, rows: Vec<f64> },
+    Reduced { omega2: Vec<f64>, shapes: Vec<f64> },
 }
 
 /// What a file gives back.
@@ -92,11 +92,11 @@ impl Stored {
                 columns: columns.clone(),
                 weights: weights.clone(),
             },
-            (Source::Reduced { omega2 }, Rows::Dense(rows)) => {
-                Equations::Reduced { omega2: omega2.clone(), rows: rows.data().to_vec() }
+            (Source::Reduced { omega2 }, Rows::Modal(shapes)) => {
+                Equations::Reduced { omega2: omega2.clone(), shapes: shapes.data().to_vec() }
             }
-            // Rows are sparse over degrees of freedom and dense over modal coordinates.
-            _ => Equations::Reduced { omega2: Vec::new(), rows: Vec::new() },
+            // Rows are sparse over degrees of freedom, modal over coordinates.
+            _ => Equations::Reduced { omega2: Vec::new(), shapes: Vec::new() },
         };
         let (omega2, points, accuracy) = (omega2.to_vec(), points.to_vec(), accuracy.cloned());
         Self { version: VERSION, ndof, mass, omega2, supports, points, accuracy, equations }
@@ -132,7 +132,7 @@ impl Stored {
     /// Numbers that do not fit together.
     pub fn system(&mut self) -> Result<Restored, ModelError> {
         let damaged = |why: &str| ModelError(format!("{FILE} is damaged: {why}"));
-        let none = Equations::Reduced { omega2: Vec::new(), rows: Vec::new() };
+        let none = Equations::Reduced { omega2: Vec::new(), shapes: Vec::new() };
         let (system, rows, pencil): (Arc<dyn System>, _, _) = match std::mem::replace(&mut self.equations, none) {
             Equations::Full { raw, modes, starts, columns, weights } => {
                 let pencil = Arc::new(Pencil::from_raw(raw).map_err(|e| damaged(&e.to_string()))?);
@@ -148,11 +148,11 @@ impl Stored {
                 let rows = Rows::Sparse { starts, columns, weights };
                 (Arc::new(Full::new(Arc::clone(&pencil), None, modes)), rows, Some(pencil))
             }
-            Equations::Reduced { omega2, rows } => {
-                if omega2.is_empty() || rows.len() % omega2.len() != 0 {
+            Equations::Reduced { omega2, shapes } => {
+                if omega2.is_empty() || shapes.len() % omega2.len() != 0 {
                     return Err(damaged("rows do not fit the coordinates"));
                 }
-                let rows = Rows::Dense(Dense::new(omega2.len(), rows));
+                let rows = Rows::Modal(Dense::new(shapes.len() / omega2.len(), shapes));
                 (Arc::new(Reduced::new(omega2)), rows, None)
             }
         };

@@ -5,10 +5,11 @@
 //! C = αM + βK + C₀                 Rayleigh and dashpots, or MΦ diag(2ζω) ΦᵀM over the lowest modes
 //! u₁ = K̂⁻¹ (p + Bᵀf₁) + g          p, g: what a step owes to the state it starts from
 //! r₁ = R u₁ = r⁰ + S f₁            S = R K̂⁻¹ Bᵀ: the compliance between all that the outside sees
+//! ṙ₁ = ṙ⁰ + a₁ S f₁,  r̈₁ = r̈⁰ + a₀ S f₁
 //! ```
 //!
-//! B are the rows of the supports; R those of the supports and of the monitored points. A [`Base`] holds p, g and r⁰: it
-//! serves every repetition of a step from the same state. A small system answers a repetition with a solve. A large one
+//! B are the rows of the supports; R those of the supports and of the monitored points, of which alone r̈ is asked. A
+//! [`Base`] holds p, g and r⁰: it serves every repetition of a step from the same state. A small system answers a repetition with a solve. A large one
 //! answers with S alone, a dense product, and u₁ waits until the next step asks for it: one sparse solve a step, however
 //! often the step is repeated.
 //!
@@ -49,10 +50,26 @@ pub struct Base {
     pub known: Vec<f64>,
     /// Φᵀp, with modal damping.
     pub amplitudes: Vec<f64>,
-    /// R u, R u̇, R ü at the step's begin.
-    pub rows: Motion,
-    /// r⁰: R u₁ without forces.
-    pub free: Vec<f64>,
+    /// r⁰, ṙ⁰ and, of the monitored points, r̈⁰: what is seen at the step's end without forces.
+    pub free: Motion,
+    /// R u̇ of the monitored points at the step's begin.
+    pub before: Vec<f64>,
+}
+
+impl Base {
+    /// r₁, ṙ₁ and, of the monitored points, r̈₁ under the forces f₁ through S.
+    pub fn answer(&self, compliance: &Dense, newmark: &Newmark, forces: &[f64], end: &mut Motion) {
+        let (rows, monitors) = (self.free.u.len(), self.free.a.len());
+        let [a0, a1, ..] = newmark.a;
+        [&mut end.u, &mut end.v, &mut end.a].into_iter().for_each(|r| r.resize(rows, 0.0));
+        compliance.multiply(forces, &mut end.u);
+        let moved = &end.u;
+        end.v.iter_mut().zip(&self.free.v).zip(moved).for_each(|((v, free), r)| *v = free + a1 * r);
+        let monitored = rows - monitors..;
+        let a = end.a[monitored.clone()].iter_mut().zip(&self.free.a).zip(&moved[monitored]);
+        a.for_each(|((a, free), r)| *a = free + a0 * r);
+        end.u.iter_mut().zip(&self.free.u).for_each(|(u, free)| *u += free);
+    }
 }
 
 /// Buffers of a step.
@@ -106,4 +123,18 @@ pub trait Step: Send + Sync {
 
     /// u₁ under the forces f₁.
     fn solve(&self, base: &Base, forces: &[f64], u: &mut Vec<f64>, work: &mut Work);
+
+    /// The motion at the step's end under the forces f₁.
+    fn finish(&self, base: &Base, forces: &[f64], end: &mut Motion, work: &mut Work) {
+        self.solve(base, forces, &mut end.u, work);
+        let n = end.u.len();
+        [&mut end.v, &mut end.a].into_iter().for_each(|x| x.resize(n, 0.0));
+        self.newmark().finish_all(&base.motion, end);
+    }
+
+    /// Finishes a step and begins the next of the same size, `next`.
+    fn proceed(&self, base: &Base, forces: &[f64], next: &mut Base, work: &mut Work) {
+        self.finish(base, forces, &mut next.motion, work);
+        self.begin(next, work);
+    }
 }

@@ -7,7 +7,6 @@ use std::sync::Arc;
 use common::{Train, drive, outputs, stepping};
 use ttb_bridge::Bridge;
 use ttb_bridge::full::Full;
-use ttb_bridge::lazy::answer;
 use ttb_bridge::lockstep::Lockstep;
 use ttb_bridge::rows::Rows;
 use ttb_bridge::space;
@@ -94,20 +93,23 @@ fn the_split_solve_is_newmarks_method_with_dashpots_too() {
         let compliance = step.compliance().expect("a large system splits its solve");
         let (mut base, mut work, mut next) = (Base::default(), Work::default(), Motion::rest(n));
         base.motion = Motion::rest(n);
-        let (mut plain, mut plain_next, mut seen) = (Motion::rest(n), Motion::rest(n), Vec::new());
+        let (mut plain, mut plain_next, mut seen) = (Motion::rest(n), Motion::rest(n), Motion::default());
         for k in 0..6 {
             let forces: Vec<f64> = (0..supports).map(|i| 1e4 * f64::from((i as i32 * 7 + k * 3) % 5)).collect();
             step.begin(&mut base, &mut work);
-            answer(compliance, &base, &forces, &mut seen);
-            step.solve(&base, &forces, &mut next.u, &mut work);
-            step.newmark().finish_all(&base.motion, &mut next);
+            base.answer(compliance, &newmark, &forces, &mut seen);
+            step.finish(&base, &forces, &mut next, &mut work);
             let mut load = vec![0.0; n];
             sparse.add_transposed(&forces, &mut load);
             textbook(&pencil, &newmark, &plain, &load, &mut plain_next);
             std::mem::swap(&mut plain, &mut plain_next);
             assert!(difference(&next.u, &plain.u) < 1e-9, "{}", difference(&next.u, &plain.u));
-            let direct: Vec<f64> = (0..rows.len()).map(|i| sparse.dot(i, &next.u)).collect();
-            assert!(difference(&seen, &direct) < 1e-10);
+            for (seen, next) in [(&seen.u, &next.u), (&seen.v, &next.v)] {
+                let direct: Vec<f64> = (0..rows.len()).map(|i| sparse.dot(i, next)).collect();
+                assert!(difference(seen, &direct) < 1e-9);
+            }
+            let direct: Vec<f64> = (supports..rows.len()).map(|i| sparse.dot(i, &next.a)).collect();
+            assert!(difference(&seen.a[supports..], &direct) < 1e-9);
             std::mem::swap(&mut base.motion, &mut next);
         }
     }
@@ -192,18 +194,17 @@ fn runs_in_lockstep_are_the_runs_alone() {
     let step = full.prepare(&law(), newmark, &sparse, supports).unwrap();
     let mut alone: Vec<Base> = (0..LANES).map(|_| Base { motion: Motion::rest(n), ..Base::default() }).collect();
     let (mut work, mut next, mut seen, mut trial) =
-        (Work::default(), Motion::rest(n), Vec::new(), vec![0.0; rows.len()]);
+        (Work::default(), Motion::rest(n), Motion::default(), vec![0.0; rows.len()]);
     for k in 0..5 {
         let of_run = |run: usize| (0..supports).map(|i| 1e4 * ((i * (run + 1) + k) % 9) as f64).collect::<Vec<f64>>();
         let forces: Vec<Vec<f64>> = (0..LANES).map(of_run).collect();
         together.begin();
         for (run, base) in alone.iter_mut().enumerate() {
             step.begin(base, &mut work);
-            answer(step.compliance().unwrap(), base, &forces[run], &mut seen);
+            base.answer(step.compliance().unwrap(), step.newmark(), &forces[run], &mut seen);
             together.trial(run, &forces[run], &mut trial);
-            assert!(difference(&trial, &seen) < 1e-10, "run {run}, step {k}: {}", difference(&trial, &seen));
-            step.solve(base, &forces[run], &mut next.u, &mut work);
-            step.newmark().finish_all(&base.motion, &mut next);
+            assert!(difference(&trial, &seen.u) < 1e-10, "run {run}, step {k}: {}", difference(&trial, &seen.u));
+            step.finish(base, &forces[run], &mut next, &mut work);
             std::mem::swap(&mut base.motion, &mut next);
         }
         together.finish(std::array::from_fn(|run| forces[run].as_slice()));

@@ -26,6 +26,7 @@ pub mod snapshot;
 mod strategy;
 pub mod subsystem;
 mod trials;
+pub mod work;
 
 pub use in_process::InProcess;
 pub use instance::Instance;
@@ -36,3 +37,4 @@ pub use pair::Pair;
 pub use report::Report;
 pub use settings::{Method, OnFailure};
 pub use subsystem::{Failure, Subsystem};
+pub use work::Work;

@@ -1,7 +1,15 @@
 //! A dense matrix to multiply with, by rows; the instruction set is chosen at run time (crate pulp). The order of summation
 //! is fixed, so that results do not depend on it.
+//!
+//! All products go through [`Dense::fold`], which reads the matrix once:
+//!
+//! ```text
+//! p = a_j · x   →   weights w(j, p)   →   y ← y + w a_j        for every row a_j
+//! ```
 
-use pulp::Arch;
+use faer::linalg::matmul::matmul;
+use faer::{Accum, Mat, MatMut, MatRef, Par};
+use pulp::{Arch, Simd, WithSimd};
 
 /// A matrix.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -11,7 +19,8 @@ pub struct Dense {
     data: Vec<f64>,
 }
 
-const WIDE: usize = 8;
+/// Partial sums of a product.
+const WIDE: usize = 16;
 
 impl Dense {
     /// Zeros.
@@ -49,55 +58,90 @@ impl Dense {
         &mut self.data[i * self.columns..(i + 1) * self.columns]
     }
 
-    /// y ← A x for several x at once; A is read once.
-    pub fn multiply<const N: usize>(&self, x: [&[f64]; N], y: [&mut [f64]; N]) {
-        let x = x.map(|x| &x[..self.columns]);
-        let mut y = y;
-        Arch::new().dispatch(|| {
-            for (i, row) in self.data.chunks_exact(self.columns.max(1)).enumerate() {
-                let sums = dots(row, x);
-                y.iter_mut().zip(sums).for_each(|(y, sum)| y[i] = sum);
-            }
-        });
+    /// Aᵀ diag(w) A′, A′ the first `columns` of A.
+    pub fn weighted_gram(&self, w: &[f64], columns: usize) -> Self {
+        let a = MatRef::from_row_major_slice(&self.data, self.rows(), self.columns);
+        let weighted = Mat::from_fn(self.rows(), columns, |j, k| w[j] * a[(j, k)]);
+        let mut gram = Self::zeros(self.columns, columns);
+        let into = MatMut::from_row_major_slice_mut(&mut gram.data, self.columns, columns);
+        matmul(into, Accum::Replace, a.transpose(), &weighted, 1.0, Par::Seq);
+        gram
     }
 
-    /// y ← y + Aᵀ x over the first rows, as many as `x` has numbers.
+    /// y ← A x over the first columns, as many as `x` has numbers.
+    pub fn multiply(&self, x: &[f64], y: &mut [f64]) {
+        self.fold(
+            x,
+            |j, p| {
+                y[j] = p;
+                []
+            },
+            [],
+        );
+    }
+
+    /// y ← y + Aᵀ x.
     pub fn add_transposed(&self, x: &[f64], y: &mut [f64]) {
-        Arch::new().dispatch(|| {
-            let y = &mut y[..self.columns];
-            let mut rows = self.data.chunks_exact((4 * self.columns).max(1));
-            let (fours, rest) = x.as_chunks::<4>();
-            for x in fours {
-                let Some(four) = rows.next() else { return };
-                let (ab, cd) = four.split_at(2 * self.columns);
-                let ((a, b), (c, d)) = (ab.split_at(self.columns), cd.split_at(self.columns));
-                for ((((y, a), b), c), d) in y.iter_mut().zip(a).zip(b).zip(c).zip(d) {
-                    *y += (a * x[0] + b * x[1]) + (c * x[2] + d * x[3]);
-                }
-            }
-            for (k, x) in rest.iter().enumerate() {
-                let row = self.row(4 * fours.len() + k);
-                y.iter_mut().zip(row).for_each(|(y, a)| *y += a * x);
-            }
-        });
+        self.fold(&[], |j, _| [x[j]], [y]);
+    }
+
+    /// For every row a_j: p = a_j · x over the first columns, as many as `x` has numbers; then y ← y + w a_j for every
+    /// w of `weights(j, p)` and its y, over the last columns, as many as that has numbers.
+    pub fn fold<const N: usize>(&self, x: &[f64], weights: impl FnMut(usize, f64) -> [f64; N], y: [&mut [f64]; N]) {
+        Arch::new().dispatch(Fold { matrix: self, x, weights, y });
     }
 }
 
-#[inline(always)]
-fn dots<const N: usize>(row: &[f64], x: [&[f64]; N]) -> [f64; N] {
-    let mut lanes = [[0.0; WIDE]; N];
-    let (chunks, rest) = row.as_chunks::<WIDE>();
-    for (i, a) in chunks.iter().enumerate() {
-        for (lanes, x) in lanes.iter_mut().zip(&x) {
-            let x = &x[i * WIDE..(i + 1) * WIDE];
-            (0..WIDE).for_each(|k| lanes[k] += a[k] * x[k]);
+struct Fold<'a, W, const N: usize> {
+    matrix: &'a Dense,
+    x: &'a [f64],
+    weights: W,
+    y: [&'a mut [f64]; N],
+}
+
+impl<W: FnMut(usize, f64) -> [f64; N], const N: usize> WithSimd for Fold<'_, W, N> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        let Self { matrix, x, mut weights, mut y } = self;
+        let columns = matrix.columns.max(1);
+        let mut groups = matrix.data.chunks_exact(4 * columns);
+        let mut j = 0;
+        for group in &mut groups {
+            let (ab, cd) = group.split_at(2 * columns);
+            let ((a, b), (c, d)) = (ab.split_at(columns), cd.split_at(columns));
+            let [p, q, r, s] = [a, b, c, d].map(|row| dot(row, x));
+            let w = [weights(j, p), weights(j + 1, q), weights(j + 2, r), weights(j + 3, s)];
+            for (n, y) in y.iter_mut().enumerate() {
+                let w = w.map(|w| w[n]);
+                let [a, b, c, d] = [a, b, c, d].map(|row| &row[columns - y.len()..]);
+                for ((((y, a), b), c), d) in y.iter_mut().zip(a).zip(b).zip(c).zip(d) {
+                    *y += (w[0] * a + w[1] * b) + (w[2] * c + w[3] * d);
+                }
+            }
+            j += 4;
+        }
+        for a in groups.remainder().chunks_exact(columns) {
+            let w = weights(j, dot(a, x));
+            for (y, w) in y.iter_mut().zip(w) {
+                let a = &a[columns - y.len()..];
+                y.iter_mut().zip(a).for_each(|(y, a)| *y += w * a);
+            }
+            j += 1;
         }
     }
-    let whole = WIDE * chunks.len();
-    std::array::from_fn(|n| {
-        let tail: f64 = rest.iter().zip(&x[n][whole..]).map(|(a, x)| a * x).sum();
-        lanes[n].iter().sum::<f64>() + tail
-    })
+}
+
+/// a · x over the first numbers of a.
+#[inline(always)]
+fn dot(a: &[f64], x: &[f64]) -> f64 {
+    let ((chunks, rest), (x, x_rest)) = (a[..x.len()].as_chunks::<WIDE>(), x.as_chunks::<WIDE>());
+    let mut lanes = [0.0; WIDE];
+    for (a, x) in chunks.iter().zip(x) {
+        (0..WIDE).for_each(|k| lanes[k] += a[k] * x[k]);
+    }
+    lanes.iter().sum::<f64>() + rest.iter().zip(x_rest).map(|(a, x)| a * x).sum::<f64>()
 }
 
 #[cfg(test)]
@@ -110,18 +154,24 @@ mod tests {
             let data: Vec<f64> = (0..rows * columns).map(|i| ((i * 7) % 13) as f64 - 6.0).collect();
             let a = Dense::new(columns, data.clone());
             let x: Vec<f64> = (0..columns).map(|j| j as f64 - 2.0).collect();
-            let minus: Vec<f64> = x.iter().map(|x| -x).collect();
-            let (mut y, mut z) = (vec![0.0; rows], vec![0.0; rows]);
-            a.multiply([&x, &minus], [&mut y, &mut z]);
-            for i in 0..rows {
-                let expected: f64 = (0..columns).map(|j| data[i * columns + j] * x[j]).sum();
-                assert_eq!((y[i], z[i]), (expected, -expected));
-            }
+            let product = |i: usize, first: usize| (0..first).map(|j| data[i * columns + j] * x[j]).sum::<f64>();
+            let mut y = vec![0.0; rows];
+            a.multiply(&x, &mut y);
+            assert_eq!(y, (0..rows).map(|i| product(i, columns)).collect::<Vec<f64>>());
+            let transposed =
+                |of: &dyn Fn(usize) -> f64, j: usize| (0..rows).map(|i| data[i * columns + j] * of(i)).sum::<f64>();
             let mut back = vec![1.0; columns];
             a.add_transposed(&y, &mut back);
+            assert_eq!(back, (0..columns).map(|j| 1.0 + transposed(&|i| y[i], j)).collect::<Vec<f64>>());
+            // Over the first columns, to all and to the last.
+            let first = columns.div_ceil(2);
+            let (mut all, mut last) = (vec![0.0; columns], vec![0.0; columns - first]);
+            a.fold(&x[..first], |j, p| [p + j as f64, 2.0 * p], [&mut all, &mut last]);
             for j in 0..columns {
-                let expected: f64 = (0..rows).map(|i| data[i * columns + j] * y[i]).sum();
-                assert_eq!(back[j], 1.0 + expected);
+                assert_eq!(all[j], transposed(&|i| product(i, first) + i as f64, j));
+                if let Some(k) = j.checked_sub(first) {
+                    assert_eq!(last[k], transposed(&|i| 2.0 * product(i, first), j));
+                }
             }
         }
     }

@@ -31,8 +31,8 @@ use crate::sparse::Pencil;
 pub struct Basis {
     /// ω², modes first, then pseudo-modes.
     pub omega2: Vec<f64>,
-    /// R Φ.
-    pub rows: Dense,
+    /// Row j: R φ_j.
+    pub shapes: Dense,
     /// Number of true modes.
     pub modes: usize,
 }
@@ -110,10 +110,10 @@ pub fn reduce(answers: &Answers, krylov: &Krylov, ritz: &Ritz, rows: &[Vec<(u32,
     let modes = ritz.omega2.len();
     let columns = modes + kept.len();
     let number = |i: usize, j: usize| if j < modes { seen[(i, j)] } else { pseudo_rows[(i, kept[j - modes])] };
-    let data = (0..rows.len()).flat_map(|i| (0..columns).map(move |j| (i, j))).map(|(i, j)| number(i, j));
-    let rows = Dense::new(columns, data.collect());
+    let data = (0..columns).flat_map(|j| (0..rows.len()).map(move |i| (i, j))).map(|(i, j)| number(i, j));
+    let shapes = Dense::new(rows.len(), data.collect());
     let pseudo = kept.iter().map(|&j| omega2[j]);
-    Basis { omega2: ritz.omega2.iter().copied().chain(pseudo).collect(), rows, modes }
+    Basis { omega2: ritz.omega2.iter().copied().chain(pseudo).collect(), shapes, modes }
 }
 
 /// Pseudo-modes whose share in some combination's compliance, at some support, is not negligible.

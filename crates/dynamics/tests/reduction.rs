@@ -70,8 +70,8 @@ fn compliance_error(long: usize, pencil: &Pencil, basis: &Basis, [c_k, c_m]: [f6
     for (j, z) in z.chunks_exact(n).enumerate() {
         for (i, row) in rows.iter().enumerate() {
             let exact: f64 = row.iter().map(|(dof, w)| w * z[*dof as usize]).sum();
-            let terms = basis.rows.row(i).iter().zip(basis.rows.row(j)).zip(&basis.omega2);
-            let reduced: f64 = terms.map(|((a, b), w2)| a * b / (c_k * w2 + c_m)).sum();
+            let terms = basis.omega2.iter().enumerate().map(|(k, w2)| (basis.shapes.row(k), w2));
+            let reduced: f64 = terms.map(|(shape, w2)| shape[i] * shape[j] / (c_k * w2 + c_m)).sum();
             worst = worst.max((exact - reduced).abs());
             largest = largest.max(exact.abs());
         }

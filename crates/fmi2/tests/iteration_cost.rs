@@ -100,6 +100,7 @@ fn no_method_allocates_in_a_step() {
             force_scale: 100.0,
             max_iterations: 30,
             hold_forces: false,
+            mean_forces: false,
             on_failure: OnFailure::Stop,
         };
         let mut coupling = Coupling::new(n, 2 * n, settings);

@@ -184,7 +184,11 @@ impl Table {
         }
         for row in &self.rows {
             let stopped = row.failure.iter().map(|why| format!("stopped: {why}"));
-            row.notes.iter().cloned().chain(stopped).for_each(|note| say!("  {} at {:.4} ms: {note}", row.method, 1e3 * row.step_s));
+            row.notes
+                .iter()
+                .cloned()
+                .chain(stopped)
+                .for_each(|note| say!("  {} at {:.4} ms: {note}", row.method, 1e3 * row.step_s));
         }
         say!("  equal h: greatest difference of the four histories from the first row of the same step, relative");
         say!("  results in {}", folder.display());

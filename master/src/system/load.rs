@@ -73,6 +73,8 @@ impl Opened {
             origin: Origin::System(fingerprint(path)?),
             irregularity_seed: None,
             step,
+            substeps: settings.substeps,
+            choice: None,
             end,
             output: settings.output,
         };
@@ -92,8 +94,9 @@ impl Opened {
     /// Both FMUs in initialization mode, connected.
     pub fn connect(&self) -> Result<Connected, Error> {
         let [train_track, bridge] = [0, 1].map(|i| instantiate(&self.fmus[i].1, &self.fmus[i].0, self.job.end));
-        let Settings { coupling, force_scale, .. } = &self.settings;
-        couple(train_track?, bridge?, &self.wiring, coupling, *force_scale, self.warnings.clone())
+        let Settings { coupling, force_scale, substeps, .. } = &self.settings;
+        let settings = coupling.settings(*force_scale, *substeps);
+        couple(train_track?, bridge?, &self.wiring, settings, coupling.send, self.warnings.clone())
     }
 }
 

@@ -5,6 +5,7 @@ use super::error::FmuError;
 use super::instance::FmuInstance;
 use super::state::StateSlot;
 use super::transform::{Linear, Transform};
+use ttb_coupling::work::WORK;
 use ttb_coupling::{Failure, Subsystem};
 
 /// An instance with the value references of its coupled variables, in the order of the connections. Everything the
@@ -14,6 +15,7 @@ pub struct FmuSubsystem {
     inputs: Vec<u32>,
     orders: Vec<i32>,
     outputs: Vec<u32>,
+    work: Option<u32>,
     slot: StateSlot,
     transform: Option<Transform>,
     /// Time the outputs belong to in s, for messages.
@@ -40,8 +42,10 @@ impl FmuSubsystem {
         if !problems.is_empty() {
             return Err(instance.impossible(problems.join("; ")));
         }
+        let work = instance.description().variable(WORK);
+        let work = work.filter(|v| v.kind == VariableType::Real && v.causality == "output").map(|v| v.value_reference);
         let slot = instance.new_slot();
-        Ok(Self { orders: vec![1; inputs.len()], inputs, outputs, slot, instance, transform: None, time: 0.0 })
+        Ok(Self { orders: vec![1; inputs.len()], inputs, outputs, work, slot, instance, transform: None, time: 0.0 })
     }
 
     /// Lets inputs and outputs pass through lines, in the order of the connections.
@@ -126,6 +130,13 @@ impl Subsystem for FmuSubsystem {
 
     fn restore(&mut self) -> Result<(), Failure> {
         self.instance.restore(&self.slot).map_err(|e| self.failure(&e))
+    }
+
+    fn work(&mut self) -> Result<Option<f64>, Failure> {
+        let Some(reference) = self.work else { return Ok(None) };
+        let mut work = [0.0];
+        self.read(&[reference], &mut work)?;
+        Ok(Some(work[0]))
     }
 
     fn can_interpolate(&self) -> bool {
