@@ -1,12 +1,12 @@
 //! Shared by the tests of the whole: a scenario run without FMUs, and the table it gives.
 
 use std::ops::ControlFlow;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use ttb_bridge::Bridge;
 use ttb_coupling::iteration::IterationError;
 use ttb_coupling::run::{TimeAxis, run};
-use ttb_coupling::{Coupling, InProcess, Model};
+use ttb_coupling::{Coupling, InProcess, Model, StepInfo, Work};
 use ttb_scenario::Checked;
 use ttb_scenario::spec::StructureSpec;
 use ttb_train_track::TrainTrack;
@@ -17,8 +17,10 @@ pub struct Table {
     pub time: Vec<f64>,
     /// Names and values of all outputs.
     pub columns: Vec<(String, Vec<f64>)>,
-    /// Trials of every step.
-    pub iterations: Vec<usize>,
+    /// How every step went.
+    pub steps: Vec<StepInfo>,
+    /// Work at the interface.
+    pub work: Work,
 }
 
 impl Table {
@@ -96,7 +98,7 @@ pub fn pair(checked: &Checked) -> Pair {
         (names.collect(), interface.outputs().map(|r| r as u32).collect())
     });
     let ttb_coupling::Pair { train_track, bridge, coupled } =
-        ttb_coupling::Pair::new(train_track, bridge).expect("initialization");
+        ttb_coupling::Pair::new(train_track, bridge, |force| checked.sent_force(force)).expect("initialization");
     Pair { train_track, bridge, coupled, outputs }
 }
 
@@ -106,14 +108,18 @@ pub fn pair(checked: &Checked) -> Pair {
 /// The run fails.
 pub fn library_run(checked: &Checked) -> Table {
     let Pair { mut train_track, mut bridge, coupled, outputs } = pair(checked);
-    let mut coupling = Coupling::new(coupled.0, coupled.1, checked.scenario.coupling.settings(checked.axle_load));
+    let mut coupling = Coupling::new(coupled.0, coupled.1, checked.settings());
     coupling.initialise(&mut train_track, &mut bridge, 0.0).expect("static equilibrium");
     let names = outputs.iter().enumerate().flat_map(|(i, (names, _))| {
         // Motions of the supports stand on both sides; the bridge's are outputs, the other side's inputs.
         names.iter().map(move |n| (i, n.clone()))
     });
-    let mut table =
-        Table { time: Vec::new(), columns: names.map(|(_, n)| (n, Vec::new())).collect(), iterations: Vec::new() };
+    let mut table = Table {
+        time: Vec::new(),
+        columns: names.map(|(_, n)| (n, Vec::new())).collect(),
+        steps: Vec::new(),
+        work: Work::default(),
+    };
     let mut row = vec![0.0; table.columns.len()];
     let mut record =
         |train_track: &mut InProcess<TrainTrack>, bridge: &mut InProcess<Bridge>, t: f64, table: &mut Table| {
@@ -124,12 +130,30 @@ pub fn library_run(checked: &Checked) -> Table {
             table.columns.iter_mut().zip(&row).for_each(|((_, column), x)| column.push(*x));
         };
     record(&mut train_track, &mut bridge, 0.0, &mut table);
-    let axis = TimeAxis::new(checked.train_track.step, checked.train_track.end);
+    let axis = TimeAxis::new(checked.steps().step, checked.train_track.end);
     let ended = run(&mut coupling, &mut train_track, &mut bridge, axis, |train_track, bridge, _, t, info| {
         record(train_track, bridge, t, &mut table);
-        table.iterations.push(info.iterations);
+        table.steps.push(*info);
         Ok::<_, IterationError>(ControlFlow::Continue(()))
     });
     assert!(ended.expect("run").is_continue());
+    table.work = coupling.report().work;
     table
+}
+
+/// A results.csv: names and values of its columns.
+///
+/// # Panics
+/// It cannot be read.
+pub fn read_results(folder: &Path) -> Vec<(String, Vec<f64>)> {
+    let text = std::fs::read_to_string(folder.join("results.csv")).expect("results.csv");
+    let mut lines = text.lines();
+    let names = lines.next().expect("header").split(',');
+    let mut columns: Vec<(String, Vec<f64>)> = names.map(|name| (name.to_string(), Vec::new())).collect();
+    for line in lines {
+        for ((_, column), field) in columns.iter_mut().zip(line.split(',')) {
+            column.push(field.parse().expect("number"));
+        }
+    }
+    columns
 }

@@ -10,6 +10,7 @@ use ttb_scenario::Checked;
 use ttb_train_track::TrainTrack;
 
 use crate::error::Error;
+use crate::isolate::Isolated;
 
 /// The FMUs that were written.
 pub struct Built {
@@ -51,6 +52,13 @@ pub fn scenario(path: Option<&Path>) -> Result<Checked, Error> {
     for warning in &checked.warnings {
         eprintln!("ttb: warning: {warning}");
     }
+    Ok(checked)
+}
+
+/// As [`scenario`], with a step that is left to the program chosen.
+pub fn decided(path: Option<&Path>) -> Result<Checked, Error> {
+    let mut checked = scenario(path)?;
+    crate::auto::choose(&mut checked, &[], &Isolated::default())?;
     Ok(checked)
 }
 

@@ -1,14 +1,14 @@
 //! From FMU files to two coupled subsystems: variables of equal name are connected, or those that maps name.
 
-use std::collections::{BTreeMap, HashSet};
+use std::collections::{BTreeMap, HashMap, HashSet};
 use std::path::Path;
 
 use ttb_coupling::probe::Probe;
-use ttb_coupling::{Adapted, Coupling, Joined, Subsystem};
+use ttb_coupling::{Adapted, Coupling, Joined, Settings, Subsystem};
 use ttb_fmi2::import::{Another, Fmu, FmuError, FmuInstance, FmuSubsystem, Linear, ModelDescription, VariableType};
 use ttb_fmi2::isolate::Isolation;
 use ttb_scenario::Checked;
-use ttb_scenario::types::{CouplingSettings, Send};
+use ttb_scenario::types::Send;
 
 use crate::assign::{Assigned, Ends, assign, declared, places, ranges};
 use crate::error::Error;
@@ -74,6 +74,7 @@ impl Bridge {
 }
 
 /// A connected pair of variables, and the lines between each of them and the iteration.
+#[derive(Clone)]
 pub struct Wire {
     /// An output of one FMU.
     pub output: String,
@@ -136,9 +137,9 @@ pub fn connect(
     couple(
         train_track,
         parts,
-        &checked.scenario.coupling,
-        checked.axle_load,
-        checked.scenario.time.step,
+        checked.settings(),
+        checked.scenario.coupling.send,
+        checked.steps().step,
         trusted,
         warnings,
     )
@@ -203,17 +204,16 @@ impl From<Wiring> for Assigned {
     }
 }
 
-/// Couples FMUs in initialization mode; `force_scale` is that of the tolerance, N, `h` the step to come, s.
+/// Couples FMUs in initialization mode; `h` is the step to come, s.
 pub fn couple(
     train_track: FmuInstance,
     bridges: Vec<(Bridge, Assigned)>,
-    coupling: &CouplingSettings,
-    force_scale: f64,
+    settings: Settings,
+    send: Send,
     h: f64,
     trusted: bool,
     mut warnings: Vec<String>,
 ) -> Result<Connected, Error> {
-    let settings = coupling.settings(force_scale);
     if settings.max_iterations > 1 && !train_track.can_restore() {
         return Err(Error::Input(format!(
             "{} cannot save and restore its state (canGetAndSetFMUstate), so its steps cannot be repeated; one pass a step is \
@@ -236,7 +236,7 @@ pub fn couple(
                 "{name} {cannot}: steps are taken once, without iteration; the summary estimates the error"
             ));
         }
-        if coupling.send == Send::Rate && !instance.can_interpolate() {
+        if send == Send::Rate && !instance.can_interpolate() {
             return Err(Error::Input(format!(
                 "coupling.send is rate, but {name} cannot interpolate inputs: use auto or mean"
             )));
@@ -266,12 +266,50 @@ pub fn couple(
     }
     displacements.extend(velocities);
     let (forces, motions) = (forces_out.names.len(), displacements.names.len());
+    let moved = moved(&forces_out.names, &displacements.names);
+    if settings.mean_forces {
+        means(&train_track, &mut forces_out.names)?;
+    }
     let train_track = subsystem(train_track, &displacements, &forces_out)?;
     if !train_track.can_interpolate() {
         warnings.push("the train–track FMU cannot interpolate inputs: the deck's motion is sent as held means".into());
     }
     let (bridge, coupling) = (Joined::new(sides), Coupling::new(forces, motions, settings));
+    let coupling = coupling.with_displacements(moved);
     Ok(Connected { train_track, bridge, coupling, warnings, parts, probe: Probe::default(), several: all_several })
+}
+
+/// The train–track FMU's outputs `….force` replaced by `….mean_force`, which sub-steps send.
+fn means(train_track: &FmuInstance, forces: &mut [String]) -> Result<(), Error> {
+    let refused = |why: String| Err(Error::Input(format!("{}: several sub-steps need {why}", train_track.name())));
+    if !train_track.can_interpolate() {
+        return refused("inputs that can be interpolated (canInterpolateInputs)".into());
+    }
+    for force in forces {
+        *force = mean(force);
+        if train_track.description().variable(force).is_none() {
+            return refused(format!("an output {force}"));
+        }
+    }
+    Ok(())
+}
+
+/// Where each force finds its displacement among the motions, by the train–track FMU's names `….force` and
+/// `….displacement`; none if they are called otherwise.
+fn moved(forces: &[String], motions: &[String]) -> Vec<usize> {
+    let places: HashMap<&str, usize> = motions.iter().enumerate().map(|(i, name)| (name.as_str(), i)).collect();
+    let of_force = |force: &String| places.get(format!("{}.displacement", place(force)).as_str()).copied();
+    forces.iter().map(of_force).collect::<Option<_>>().unwrap_or_default()
+}
+
+/// The output with the mean over a step of a force, `support[3].force`.
+pub fn mean(force: &str) -> String {
+    format!("{}.mean_force", place(force))
+}
+
+/// `support[3]` of `support[3].force`.
+fn place(name: &str) -> &str {
+    name.rsplit_once('.').map_or(name, |(place, _)| place)
 }
 
 /// One side, by its coupled variables.

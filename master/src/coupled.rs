@@ -24,11 +24,22 @@ pub struct CouplingReport {
     /// displacements.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub error_estimate: Option<f64>,
-    /// Steps without iteration: work that was lost or gained at the interface, relative.
+    /// Work at the interface; absent where it is not known which force moves along which displacement.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub work_imbalance: Option<f64>,
+    pub work: Option<WorkReport>,
     /// What trial steps before the run showed.
     pub probe: ProbeReport,
+}
+
+/// Work that was made or lost at the interface, all steps together.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct WorkReport {
+    /// J: what the bridge received.
+    pub received: f64,
+    /// What train and track gave beyond it, relative to the work of all supports counted as amounts.
+    pub imbalance: f64,
+    /// The part of it that the exchange makes, whatever the tolerance of the iteration.
+    pub exchange_imbalance: f64,
 }
 
 /// What trial steps before the run showed; empty where none could be made.
@@ -66,7 +77,7 @@ impl CouplingReport {
     pub fn new(coupling: &Coupling, probe: &Probe) -> Self {
         let report = coupling.report();
         let switches = report.switches.iter().map(|(time, method)| Switch { time: *time, method: method.name() });
-        let explicit = report.explicit;
+        let (explicit, work) = (report.explicit, report.work);
         Self {
             method: if explicit.is_some() { Method::Explicit.name() } else { coupling.method().name() },
             contraction_at_start: report.contraction,
@@ -76,19 +87,26 @@ impl CouplingReport {
                 Source::Trials => "trials",
             }),
             switches: switches.collect(),
-            error_estimate: explicit.map(|e| e.residual),
-            work_imbalance: explicit.map(|e| e.work),
+            error_estimate: explicit,
+            work: (work.turnover > 0.0).then(|| WorkReport {
+                received: work.received,
+                imbalance: work.imbalance(),
+                exchange_imbalance: work.exchange_imbalance(),
+            }),
             probe: probe.into(),
         }
     }
 
-    /// Two lines for people.
+    /// A few lines for people.
     pub fn print(&self) {
         let rho = self.contraction_at_start.map_or_else(|| "unknown".into(), |rho| format!("{rho:.3}"));
         let model = self.model.map_or_else(String::new, |model| format!(", model by {model}"));
         say!("  coupling        {}{model}; ρ at the start {rho}", self.method);
-        if let (Some(error), Some(work)) = (self.error_estimate, self.work_imbalance) {
-            say!("  NOT ITERATED    the bridge cannot roll back; error about {error:.1e}, work imbalance {work:.1e}");
+        if let Some(error) = self.error_estimate {
+            say!("  NOT ITERATED    the bridge cannot roll back; error about {error:.1e}");
+        }
+        if let Some(WorkReport { imbalance, exchange_imbalance, .. }) = self.work {
+            say!("  interface work  imbalance {imbalance:.1e}, of which the exchange makes {exchange_imbalance:.1e}");
         }
     }
 }

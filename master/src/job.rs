@@ -1,5 +1,6 @@
 //! What a run needs to know beside its two FMUs, whether it comes from a scenario or from a system structure.
 
+use crate::auto::Choice;
 use ttb_scenario::Checked;
 use ttb_scenario::spec::Profile;
 use ttb_scenario::types::Output;
@@ -12,8 +13,12 @@ pub struct Job {
     pub origin: Origin,
     /// Seed of a random irregularity, where it is known.
     pub irregularity_seed: Option<u64>,
-    /// Step, s.
+    /// Macro step, s.
     pub step: f64,
+    /// Internal steps of train and track in each of them.
+    pub substeps: usize,
+    /// Why they are these, if they were left to the program.
+    pub choice: Option<Choice>,
     /// End, s.
     pub end: f64,
     /// What is recorded.
@@ -28,8 +33,9 @@ pub enum Origin {
     System(String),
 }
 
-impl From<&Checked> for Job {
-    fn from(checked: &Checked) -> Self {
+impl Job {
+    /// Of a scenario whose steps are known.
+    pub fn new(checked: &Checked, choice: Option<Choice>) -> Self {
         Self {
             title: checked.scenario.title.clone(),
             origin: Origin::Scenario(checked.hash.clone()),
@@ -37,7 +43,9 @@ impl From<&Checked> for Job {
                 Profile::Spectrum { seed, .. } => Some(seed),
                 _ => None,
             },
-            step: checked.train_track.step,
+            step: checked.steps().step,
+            substeps: checked.steps().substeps,
+            choice,
             end: checked.train_track.end,
             output: checked.scenario.output,
         }

@@ -9,6 +9,7 @@ macro_rules! say {
 }
 
 mod assign;
+mod auto;
 mod build;
 mod check;
 mod cli;
@@ -32,6 +33,7 @@ mod probe;
 mod record;
 mod run;
 mod series;
+mod stretch;
 mod summary;
 mod system;
 
@@ -55,7 +57,7 @@ fn execute(command: Command) -> Result<(), Error> {
     match command {
         Command::Run(arguments) => run::run(&arguments),
         Command::Build(arguments) => {
-            let checked = build::scenario(arguments.scenario.as_deref())?;
+            let checked = build::decided(arguments.scenario.as_deref())?;
             let built = build::build(&checked, &arguments.output)?;
             say!("{}\n{}", built.train_track.display(), built.bridge.display());
             Ok(())

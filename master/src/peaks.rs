@@ -1,7 +1,10 @@
 //! Extremes of every recorded variable, with their time; loss of contact of every wheel.
 
+use std::collections::HashMap;
+
 use serde::Serialize;
 
+use crate::auto::Choice;
 use crate::record::{Column, Recorder};
 
 /// A value and when, and for wheels where, it occurred.
@@ -27,6 +30,17 @@ pub struct Peak {
     pub min: Extreme,
     /// Greatest value.
     pub max: Extreme,
+    /// How far both may be off for the steps' sake, in the variable's unit; known where the steps were chosen.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub estimated_error: Option<f64>,
+}
+
+/// A variable's kind: `wheel[].contact_force` of all wheels.
+pub fn kind(name: &str) -> String {
+    match (name.find('['), name.find(']')) {
+        (Some(open), Some(close)) if open < close => format!("{}{}", &name[..=open], &name[close..]),
+        _ => name.to_string(),
+    }
 }
 
 /// Contact of one wheelset.
@@ -54,7 +68,13 @@ impl Peaks {
     /// For the columns of a recorder.
     pub fn new(recorder: &Recorder) -> Self {
         let none = Extreme { value: f64::NAN, time: 0.0, x: None };
-        let peak = |c: &Column| Peak { name: c.name.clone(), unit: c.unit.clone(), min: none, max: none };
+        let peak = |c: &Column| Peak {
+            name: c.name.clone(),
+            unit: c.unit.clone(),
+            min: none,
+            max: none,
+            estimated_error: None,
+        };
         let position = |c: &Column| {
             let wheel = c.name.split_once("].").filter(|(head, _)| head.starts_with("wheel["))?.0;
             recorder.find(&format!("{wheel}].position"))
@@ -93,6 +113,19 @@ impl Peaks {
         }
     }
 
+    /// Tells every peak's error by that of its kind, relative to the largest of the kind.
+    pub fn estimate(&mut self, choice: &Choice) {
+        let largest = |peak: &Peak| peak.min.value.abs().max(peak.max.value.abs());
+        let mut of_kind: HashMap<String, f64> = HashMap::new();
+        for peak in &self.peaks {
+            let most = of_kind.entry(kind(&peak.name)).or_default();
+            *most = most.max(largest(peak));
+        }
+        for peak in &mut self.peaks {
+            peak.estimated_error = choice.error(&peak.name).map(|error| error * of_kind[&kind(&peak.name)]);
+        }
+    }
+
     /// All extremes in column order.
     pub fn all(&self) -> &[Peak] {
         &self.peaks
@@ -101,5 +134,16 @@ impl Peaks {
     /// Wheels that lost contact.
     pub fn contact_losses(&self) -> Vec<ContactLoss> {
         self.wheels.iter().map(|(_, loss, _)| loss.clone()).filter(|loss| loss.intervals > 0).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn members_of_a_series_are_of_one_kind() {
+        let kinds = ["wheel[12].contact_force", "point[mid].moment", "deck_work"].map(kind);
+        assert_eq!(kinds, ["wheel[].contact_force", "point[].moment", "deck_work"]);
     }
 }

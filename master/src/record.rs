@@ -20,7 +20,7 @@ const DIGITS: WriteFloatOptions =
     WriteFloatOptions::builder().min_significant_digits(NonZeroUsize::new(17)).build_strict();
 
 /// Columns of iterations.csv.
-const ITERATIONS: [&str; 11] = [
+const ITERATIONS: [&str; 13] = [
     "time",
     "iterations",
     "residual",
@@ -32,6 +32,8 @@ const ITERATIONS: [&str; 11] = [
     "method",
     "train_track_trials",
     "rescues",
+    "work",
+    "work_imbalance",
 ];
 
 /// A recorded variable.
@@ -122,6 +124,8 @@ impl Recorder {
         table.text(format_args!("{},{},{converged}", info.roll_backs, info.halvings));
         table.text(format_args!("{seconds:.6e}"));
         table.text(format_args!("{},{},{}", info.method.name(), info.train_track_trials, info.rescues));
+        table.number(info.work.received);
+        table.number(info.work.residual + info.work.exchange);
         table.end_row()
     }
 

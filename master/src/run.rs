@@ -10,6 +10,7 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use ttb_coupling::run::{TimeAxis, run as run_steps};
 use ttb_fmi2::import::FmuSubsystem;
 
+use crate::auto;
 use crate::build;
 use crate::cli::Run;
 use crate::connect::{BridgeSide, Connected, Given, connect};
@@ -41,7 +42,7 @@ pub fn run(arguments: &Run) -> Result<(), Error> {
 }
 
 fn run_scenario(arguments: &Run, isolated: &Isolated) -> Result<(), Error> {
-    let checked = build::scenario(arguments.scenario.as_deref())?;
+    let mut checked = build::scenario(arguments.scenario.as_deref())?;
     for given in arguments.train_track.iter().chain(&arguments.bridge) {
         std::fs::File::open(given).map_err(|e| Error::Input(format!("{}: {e}", given.display())))?;
     }
@@ -52,6 +53,12 @@ fn run_scenario(arguments: &Run, isolated: &Isolated) -> Result<(), Error> {
             "{bridges} bridges and {maps} maps: give one for all, or one for each in the same order"
         )));
     }
+    if arguments.train_track.is_some() && checked.scenario.time.step.given().is_none() {
+        return Err(Error::Input("a step is chosen for our train and track: with --train-track give time.step".into()));
+    }
+    let map = |k: usize| if maps.len() > 1 { maps.get(k) } else { maps.first() };
+    let given: Vec<Given> = arguments.bridge.iter().enumerate().map(|(k, path)| Given { path, map: map(k) }).collect();
+    let choice = auto::choose(&mut checked, &given, isolated)?;
     let folder = &arguments.output;
     std::fs::create_dir_all(folder).map_err(Error::io(folder))?;
     let train_track = arguments.train_track.clone().map_or_else(|| build::train_track(&checked, folder), Ok)?;
@@ -59,11 +66,10 @@ fn run_scenario(arguments: &Run, isolated: &Isolated) -> Result<(), Error> {
     if bridges.is_empty() {
         bridges.push(build::bridge(&checked, folder)?);
     }
-    let map = |k: usize| if maps.len() > 1 { maps.get(k) } else { maps.first() };
     let bridges: Vec<Given> = bridges.iter().enumerate().map(|(k, path)| Given { path, map: map(k) }).collect();
     let (stop, begin) = (stop_on_interrupt(), Instant::now());
     let told = checked.warnings.len();
-    let job = Job::from(&checked);
+    let job = Job::new(&checked, choice);
     run_trusting(
         |trusted| connect(&train_track, &bridges, &checked, isolated, trusted),
         |connected| {
@@ -144,6 +150,9 @@ fn run_connected(
         return outcome;
     }
     let outcome = outcome.and(log.recorder.flush());
+    if let Some(choice) = &job.choice {
+        log.peaks.estimate(choice);
+    }
     finish(job, &log, outcome, seconds, connected, folder, arguments.quiet)
 }
 

@@ -6,6 +6,7 @@ use serde::Serialize;
 use ttb_coupling::StepInfo;
 use ttb_coupling::iteration::Outcome;
 
+use crate::auto::Choice;
 use crate::coupled::CouplingReport;
 use crate::error::Error;
 use crate::job::{Job, Origin};
@@ -92,6 +93,9 @@ pub struct Summary<'a> {
     irregularity_seed: Option<u64>,
     versions: Versions,
     step_s: f64,
+    substeps: usize,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    step_choice: Option<&'a Choice>,
     end_s: f64,
     reached_s: f64,
     iterations: &'a Iterations,
@@ -134,6 +138,8 @@ impl<'a> Summary<'a> {
             irregularity_seed: job.irregularity_seed,
             versions: Versions { ttb: env!("CARGO_PKG_VERSION"), fmi: "2.0" },
             step_s: job.step,
+            substeps: job.substeps,
+            step_choice: job.choice.as_ref(),
             end_s: job.end,
             reached_s: reached,
             iterations,
@@ -157,7 +163,11 @@ impl<'a> Summary<'a> {
     pub fn print(&self, folder: &Path) {
         say!("{}", self.title);
         let (i, s) = (self.iterations, self.seconds);
-        say!("  {} steps of {} s to t = {} s: {}", i.steps, self.step_s, self.reached_s, self.status);
+        let parts = match self.substeps {
+            1 => String::new(),
+            m => format!(" (train and track {m} a step)"),
+        };
+        say!("  {} steps of {} s{parts} to t = {} s: {}", i.steps, self.step_s, self.reached_s, self.status);
         say!("  iterations      mean {:.2}, max {}, residual ≤ {:.1e}", i.mean, i.max, i.max_residual);
         self.coupling.print();
         say!(

@@ -4,12 +4,13 @@
 pub type Unit = (&'static str, &'static [(&'static str, &'static str)]);
 
 /// Every unit an interface may use; `1` (no unit) is left out of the XML.
-pub const UNITS: [Unit; 14] = [
+pub const UNITS: [Unit; 15] = [
     ("m", &[("m", "1")]),
     ("m/s", &[("m", "1"), ("s", "-1")]),
     ("m/s2", &[("m", "1"), ("s", "-2")]),
     ("N", &[("kg", "1"), ("m", "1"), ("s", "-2")]),
     ("N.m", &[("kg", "1"), ("m", "2"), ("s", "-2")]),
+    ("J", &[("kg", "1"), ("m", "2"), ("s", "-2")]),
     ("N/m", &[("kg", "1"), ("s", "-2")]),
     ("N.s/m", &[("kg", "1"), ("s", "-1")]),
     ("kg", &[("kg", "1")]),

@@ -37,7 +37,7 @@ fn main() {
     for (name, checked) in &cases {
         for (predictor_name, predictor) in predictors.iter().filter(|p| asked(p.0, &predictor_names)) {
             for method in methods.iter().filter(|m| asked(m.name(), &names)) {
-                let mut settings = checked.scenario.coupling.settings(checked.axle_load);
+                let mut settings = checked.settings();
                 (settings.method, settings.predictor) = (*method, *predictor);
                 settings.reuse = reuse.unwrap_or(settings.reuse);
                 println!("{name}, {predictor_name:9}, {:11} {}", method.name(), describe(checked, settings));

@@ -73,6 +73,7 @@ fn settings(limit: usize, method: Method) -> Settings {
         force_scale: 1e-3,
         max_iterations: limit,
         hold_forces: false,
+        mean_forces: false,
         on_failure: OnFailure::Accept,
     }
 }

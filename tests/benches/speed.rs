@@ -21,8 +21,7 @@ fn main() {
         for _ in 0..3 {
             let begin = Instant::now();
             let Pair { mut train_track, mut bridge, coupled, .. } = pair(&checked);
-            let mut coupling =
-                Coupling::new(coupled.0, coupled.1, checked.scenario.coupling.settings(checked.axle_load));
+            let mut coupling = Coupling::new(coupled.0, coupled.1, checked.settings());
             coupling.initialise(&mut train_track, &mut bridge, 0.0).expect("static equilibrium");
             start = begin.elapsed().as_secs_f64();
             let begin = Instant::now();

@@ -93,7 +93,7 @@ fn bad_questions_are_answered_with_exit_code_2() {
         (["--car", "2"], "--car is 2; the train has 1 to 1"),
         (["--wheel", "0"], "--wheel is 0; the train has 1 to 4"),
         (["--steps", "0"], "a positive number of seconds is wanted"),
-        (["--budget", "-1"], "--budget"),
+        (["--budget", "0"], "a positive number of seconds is wanted"),
         (["--methods", "magic"], "possible values: scm, schur, lcm, lcm-relaxed, hsa"),
     ] {
         let done = compare(out.path(), &arguments);

@@ -5,8 +5,11 @@
 //! ```text
 //! λ_n, (λ − λ_n)/h;   d_n, ḋ_n, (d − d_n)/h, (ḋ − ḋ_n)/h        or        (λ_n + λ)/2;   (d_n + d)/2, (ḋ_n + ḋ)/2
 //! ```
+//!
+//! Where train and track take sub-steps, λ is the mean force of a step and goes to the bridge as it is, held.
 
 use crate::report::{IterationError, Side};
+use crate::settings::Settings;
 use crate::subsystem::{Failure, Subsystem};
 
 /// Both subsystems and the step [t, t + h] they are asked for.
@@ -37,6 +40,8 @@ impl Sides<'_> {
 pub(crate) struct Exchange {
     /// Send forces as held means whatever the bridge can.
     hold_forces: bool,
+    /// λ is a mean already.
+    mean_forces: bool,
     /// (d, ḋ) at t_n.
     pub now: Vec<f64>,
     /// (d, ḋ) at the end of the trial.
@@ -46,14 +51,22 @@ pub(crate) struct Exchange {
 }
 
 impl Exchange {
-    pub fn new(forces: usize, motions: usize, hold_forces: bool) -> Self {
+    pub fn new(forces: usize, motions: usize, settings: &Settings) -> Self {
         let (force, motion) = (vec![0.0; forces], vec![0.0; motions]);
-        Self { hold_forces, now: motion.clone(), motion: motion.clone(), sent_force: force, sent_motion: motion }
+        let Settings { hold_forces, mean_forces, .. } = *settings;
+        Self {
+            hold_forces,
+            mean_forces,
+            now: motion.clone(),
+            motion: motion.clone(),
+            sent_force: force,
+            sent_motion: motion,
+        }
     }
 
-    /// What the bridge gets of a change of λ: all of it at the step's end, or half of it as mean.
+    /// What the bridge gets of a change of λ: all of it, at the step's end or as mean, or half of it as mean.
     pub fn share_of_force(&self, bridge: &dyn Subsystem) -> f64 {
-        if self.interpolates(bridge) { 1.0 } else { 0.5 }
+        if self.mean_forces || self.interpolates(bridge) { 1.0 } else { 0.5 }
     }
 
     fn interpolates(&self, bridge: &dyn Subsystem) -> bool {
@@ -70,6 +83,9 @@ impl Exchange {
 
     /// Sets the bridge's forces for a step that is not taken (yet).
     pub fn announce(&mut self, sides: &mut Sides, now: &[f64], lambda: &[f64]) -> Result<(), Failure> {
+        if self.mean_forces {
+            return sides.bridge.set_inputs(lambda, None);
+        }
         let interpolate = self.interpolates(sides.bridge);
         send(sides.bridge, now, lambda, sides.h, interpolate, &mut self.sent_force)
     }

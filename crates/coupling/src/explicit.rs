@@ -35,8 +35,6 @@ pub(crate) struct Explicit {
     velocity: Vec<f64>,
     h: f64,
     begun: bool,
-    /// Work of G − λ and, as sum of amounts, of G.
-    work: [f64; 2],
 }
 
 impl Coupling {
@@ -68,7 +66,9 @@ impl Coupling {
         if residual.is_nan() || residual > BLOWN {
             return Err(IterationError::Unstable { t: sides.t, h: sides.h, rho: self.report.contraction, residual });
         }
-        self.account(residual);
+        let most = self.report.explicit.get_or_insert_default();
+        *most = most.max(residual);
+        let work = self.account(sides)?;
         let explicit = &mut self.explicit;
         for ((e, g), p) in explicit.error.iter_mut().zip(&self.answer).zip(&explicit.prediction) {
             *e = g - p;
@@ -78,8 +78,8 @@ impl Coupling {
         self.forces.accept(&self.lambda, sides.h);
         self.exchange.accept();
         let (outcome, method) = (Outcome::Explicit, Method::Explicit);
-        let info = StepInfo { outcome, method, iterations: 1, train_track_trials: 2, residual, ..StepInfo::default() };
-        Ok(info)
+        let trials = StepInfo { iterations: 1, train_track_trials: 2, ..StepInfo::default() };
+        Ok(StepInfo { outcome, method, residual, work, ..trials })
     }
 
     /// The deck's motion at the end of the step, with the mean acceleration of the step before.
@@ -92,20 +92,6 @@ impl Coupling {
             to_d[i] = d + h * (v + 0.5 * h * a);
             to_v[i] = v + h * a;
         }
-    }
-
-    /// Adds the step to the error estimate.
-    fn account(&mut self, residual: f64) {
-        let half = self.exchange.now.len() / 2;
-        let work = &mut self.explicit.work;
-        let moved = self.exchange.motion[..half].iter().zip(&self.exchange.now).map(|(d, now)| d - now);
-        for ((moved, r), g) in moved.zip(&self.residual).zip(&self.answer) {
-            work[0] += moved * r;
-            work[1] += (moved * g).abs();
-        }
-        let estimate = self.report.explicit.get_or_insert_default();
-        estimate.residual = estimate.residual.max(residual);
-        estimate.work = if work[1] > 0.0 { work[0].abs() / work[1] } else { 0.0 };
     }
 
     /// Refuses a ρ above [`STABLE`], if ρ can be known before the first step.

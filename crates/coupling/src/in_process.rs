@@ -3,6 +3,7 @@
 use crate::instance::{Instance, Snapshot};
 use crate::model::{Model, ModelError};
 use crate::subsystem::{Failure, Subsystem};
+use crate::work::WORK;
 
 /// A model inside this process, with the value references of its coupled variables.
 pub struct InProcess<M: Model> {
@@ -10,13 +11,15 @@ pub struct InProcess<M: Model> {
     instance: Instance<M>,
     inputs: Vec<u32>,
     outputs: Vec<u32>,
+    work: Option<u32>,
     slot: Option<Snapshot<M>>,
 }
 
 impl<M: Model> InProcess<M> {
     /// Wraps an instance; `inputs` and `outputs` are coupled in the order of the connections.
     pub fn new(name: &str, instance: Instance<M>, inputs: Vec<u32>, outputs: Vec<u32>) -> Self {
-        Self { name: name.to_string(), instance, inputs, outputs, slot: None }
+        let work = instance.model().interface().find(WORK).map(|reference| reference as u32);
+        Self { name: name.to_string(), instance, inputs, outputs, work, slot: None }
     }
     /// The instance, for reading results.
     pub fn instance(&mut self) -> &mut Instance<M> {
@@ -60,6 +63,12 @@ impl<M: Model> Subsystem for InProcess<M> {
             return Err(self.failure(&ModelError("restore without a saved state".into())));
         };
         self.instance.restore(slot).map_err(|e| Failure { subsystem: self.name.clone(), message: e.0 })
+    }
+    fn work(&mut self) -> Result<Option<f64>, Failure> {
+        let Some(reference) = self.work else { return Ok(None) };
+        let mut work = [0.0];
+        self.instance.get(&[reference], &mut work).map_err(|e| self.failure(&e))?;
+        Ok(Some(work[0]))
     }
     fn can_interpolate(&self) -> bool {
         true

@@ -16,7 +16,7 @@ pub enum Causality {
 pub enum Kind {
     /// fmi2Real with an SI unit (`"1"` for none).
     Real {
-        /// Name of the unit, one of `m`, `m/s`, `m/s2`, `N`, `N.m`, `kg`, `s`, `rad`, `rad/s`, `rad/s2`, `1`.
+        /// Name of the unit, one of `m`, `m/s`, `m/s2`, `N`, `N.m`, `J`, `kg`, `s`, `rad`, `rad/s`, `rad/s2`, `1`.
         unit: &'static str,
     },
     /// fmi2Boolean, stored as 0 or 1.

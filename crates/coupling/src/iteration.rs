@@ -26,6 +26,7 @@ pub use crate::settings::{OnFailure, Settings};
 use crate::strategy::Strategy;
 use crate::subsystem::Subsystem;
 use crate::trials::Mode;
+use crate::work::{self, Work};
 
 /// Halvings of a step at most, under [`OnFailure::Halve`].
 const HALVINGS: usize = 4;
@@ -42,6 +43,10 @@ pub struct Coupling {
     pub(crate) lambda: Vec<f64>,
     /// G(λ), the answer of the train–track subsystem.
     pub(crate) answer: Vec<f64>,
+    /// G_n, what it answered at last in the step before.
+    answer_before: Vec<f64>,
+    /// Where in the motion each force finds its displacement.
+    displacements: Vec<usize>,
     pub(crate) residual: Vec<f64>,
     /// Trials begun in the iteration at hand.
     pub(crate) made: usize,
@@ -60,10 +65,12 @@ impl Coupling {
         let zero = || vec![0.0; forces];
         Self {
             settings,
-            forces: History::new(forces),
-            exchange: Exchange::new(forces, motions, settings.hold_forces),
+            forces: History::new(forces, settings.mean_forces),
+            exchange: Exchange::new(forces, motions, &settings),
             lambda: zero(),
             answer: zero(),
+            answer_before: zero(),
+            displacements: if motions == 2 * forces { (0..forces).collect() } else { Vec::new() },
             residual: zero(),
             made: 0,
             strategy: Strategy::new(forces, &settings),
@@ -74,7 +81,14 @@ impl Coupling {
         }
     }
 
-    /// Accepted support forces at t_n, N.
+    /// Where in the motion each force finds its displacement; none: no work is counted.
+    #[must_use]
+    pub fn with_displacements(mut self, displacements: Vec<usize>) -> Self {
+        self.displacements = displacements;
+        self
+    }
+
+    /// Accepted support forces at t_n, or means over the step that ended there, N.
     pub fn forces(&self) -> &[f64] {
         self.forces.now()
     }
@@ -110,6 +124,7 @@ impl Coupling {
         sides.bridge.exit_initialization()?;
         sides.bridge.get_outputs(&mut self.exchange.now)?;
         self.forces.start(&self.lambda);
+        self.answer_before.copy_from_slice(&self.answer);
         Ok(info)
     }
 
@@ -143,9 +158,10 @@ impl Coupling {
         if info.outcome != Outcome::Converged && self.settings.on_failure != OnFailure::Accept {
             return Err(IterationError::NotConverged { t: sides.t, h: sides.h, info, rho: None });
         }
+        let work = self.account(sides)?;
         self.forces.accept(&self.answer, sides.h);
         self.exchange.accept();
-        Ok(info)
+        Ok(StepInfo { work, ..info })
     }
 
     fn step_or_halve(&mut self, sides: &mut Sides, depth: usize) -> Result<StepInfo, IterationError> {
@@ -156,12 +172,13 @@ impl Coupling {
             self.audit(sides)?;
         }
         if info.outcome == Outcome::Converged || policy == OnFailure::Accept {
+            let work = self.account(sides)?;
             self.forces.accept(&self.lambda, h);
             self.exchange.accept();
             if self.strategy.observe(info.iterations).is_some() {
                 self.note(t);
             }
-            return Ok(info);
+            return Ok(StepInfo { work, ..info });
         }
         if policy == OnFailure::Stop || depth == HALVINGS {
             self.forces.predict(self.settings.predictor, h, &mut self.lambda);
@@ -176,7 +193,10 @@ impl Coupling {
         sides.restore()?;
         let first = self.step_or_halve(&mut sides.over(t, 0.5 * h), depth + 1)?;
         let second = self.step_or_halve(&mut sides.over(t + 0.5 * h, 0.5 * h), depth + 1)?;
+        let mut work = first.work;
+        work += second.work;
         Ok(StepInfo {
+            work,
             iterations: info.iterations + first.iterations + second.iterations,
             train_track_trials: info.train_track_trials + first.train_track_trials + second.train_track_trials,
             roll_backs: info.roll_backs + 1 + first.roll_backs + second.roll_backs,
@@ -231,6 +251,22 @@ impl Coupling {
         let rho = self.contraction(sides)?;
         self.audit(sides)?;
         Ok(rho)
+    }
+
+    /// Counts the work of a step that is about to be accepted.
+    pub(crate) fn account(&mut self, sides: &mut Sides) -> Result<Work, IterationError> {
+        let step = work::Step {
+            sent: [self.forces.now(), &self.lambda],
+            answered: [&self.answer_before, &self.answer],
+            motion: [&self.exchange.now, &self.exchange.motion],
+            means: self.settings.mean_forces,
+            displacements: &self.displacements,
+            given: sides.train_track.work()?,
+        };
+        let work = step.work();
+        self.answer_before.copy_from_slice(&self.answer);
+        self.report.work += work;
+        Ok(work)
     }
 
     /// Notes the method in force from `t` on.

@@ -31,6 +31,7 @@ mod strategy;
 pub mod subsystem;
 mod trials;
 pub mod verdict;
+pub mod work;
 
 pub use adapted::Adapted;
 pub use in_process::InProcess;
@@ -44,3 +45,4 @@ pub use report::Report;
 pub use settings::{Method, OnFailure};
 pub use stations::{Shape, StationError, Stations};
 pub use subsystem::{Failure, Subsystem};
+pub use work::Work;

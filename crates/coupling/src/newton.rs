@@ -93,6 +93,11 @@ impl Newton {
         off(0..half) <= force * self.largest[0] && off(half..motion.len()) <= force * self.largest[1]
     }
 
+    /// (d, ḋ) of the model at its last λ.
+    pub fn foreseen(&self, motion: &mut [f64]) {
+        motion.copy_from_slice(&self.model_motion);
+    }
+
     /// Whether the Jacobian belongs to steps of `h` seconds.
     pub fn fits(&self, h: f64) -> bool {
         (h - self.h).abs() <= SAME_STEP * self.h

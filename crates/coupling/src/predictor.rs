@@ -30,9 +30,12 @@ impl Predictor {
 /// Accepted forces kept at most.
 const LEVELS: usize = 4;
 
-/// The accepted forces at t_n, t_{n−1}, … of a run; its first one counts as one that lasted for ever, λ_{−1} = λ_0.
+/// The accepted forces at t_n, t_{n−1}, … of a run, or over the steps that ended there; its first one counts as one that
+/// lasted for ever, λ_{−1} = λ_0.
 #[derive(Debug)]
 pub struct History {
+    /// Forces are means over steps, and belong to their middles.
+    means: bool,
     /// Newest first.
     levels: VecDeque<Vec<f64>>,
     /// Length of the step that led to each level, s; zero for λ_0.
@@ -42,9 +45,9 @@ pub struct History {
 }
 
 impl History {
-    /// Begins with zero forces.
-    pub fn new(n: usize) -> Self {
-        Self { levels: vec![vec![0.0; n]; LEVELS].into(), steps: vec![0.0; LEVELS].into(), known: 1 }
+    /// Begins with zero forces: end values of steps, or means over them.
+    pub fn new(n: usize, means: bool) -> Self {
+        Self { means, levels: vec![vec![0.0; n]; LEVELS].into(), steps: vec![0.0; LEVELS].into(), known: 1 }
     }
     /// λ_n.
     pub fn now(&self) -> &[f64] {
@@ -69,16 +72,23 @@ impl History {
     /// ```text
     /// λ⁰ = Σ_i λ_{n−i} Π_{j≠i} (h + a_j)/(a_j − a_i),   a_i = t_n − t_{n−i}
     /// ```
+    ///
+    /// Means stand in the middles of their steps: h is then h/2, and a_i greater by half the step that led to t_{n−i}.
     pub fn predict(&self, predictor: Predictor, h: f64, lambda: &mut [f64]) {
         let points = predictor.points().min(self.known);
         let mut age = [0.0; LEVELS];
         for i in 1..points {
             age[i] = age[i - 1] + self.steps[i - 1];
         }
+        let mut ahead = h;
+        if self.means {
+            ahead = 0.5 * h;
+            age.iter_mut().zip(&self.steps).for_each(|(age, step)| *age += 0.5 * step);
+        }
         lambda.copy_from_slice(&self.levels[0]);
         for i in 1..points {
             let others = (0..points).filter(|j| *j != i);
-            let weight: f64 = others.map(|j| (h + age[j]) / (age[j] - age[i])).product();
+            let weight: f64 = others.map(|j| (ahead + age[j]) / (age[j] - age[i])).product();
             // The weights sum up to 1: written as differences from λ_n, equal forces are predicted without rounding.
             for ((l, then), now) in lambda.iter_mut().zip(&self.levels[i]).zip(&self.levels[0]) {
                 *l += weight * (then - now);
@@ -94,7 +104,7 @@ mod tests {
     #[test]
     fn a_polynomial_is_predicted_exactly_whatever_the_steps() {
         let curve = |t: f64| [2.0 + t, 1.0 - t * t, t * t * t];
-        let mut history = History::new(3);
+        let mut history = History::new(3, false);
         history.start(&curve(0.0));
         let mut t = 0.0;
         for h in [1.0, 0.5, 0.5, 2.0] {
@@ -114,7 +124,7 @@ mod tests {
 
     #[test]
     fn at_the_start_of_a_run_the_first_force_is_repeated() {
-        let mut history = History::new(1);
+        let mut history = History::new(1, false);
         history.start(&[1.0]);
         let mut lambda = [0.0];
         history.predict(Predictor::Cubic, 1.0, &mut lambda);

@@ -2,6 +2,7 @@
 
 use crate::settings::Method;
 use crate::subsystem::Failure;
+use crate::work::Work;
 
 /// How a step ended.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -54,6 +55,8 @@ pub struct StepInfo {
     pub rescues: usize,
     /// The method in force at its end.
     pub method: Method,
+    /// Work at the interface.
+    pub work: Work,
 }
 
 /// What was found out about the coupling besides its steps.
@@ -67,17 +70,10 @@ pub struct Report {
     pub model: Option<Source>,
     /// Methods that took over in the course of the run, and when, s.
     pub switches: Vec<(f64, Method)>,
-    /// How far steps that were not iterated are off.
-    pub explicit: Option<ErrorEstimate>,
-}
-
-/// How far steps that were not iterated are off.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct ErrorEstimate {
-    /// Largest |G − λ| / max(|G|, one axle load): force that was missing at the end of a step.
-    pub residual: f64,
-    /// Work of G − λ on the deck, relative to that of G counted as amounts.
-    pub work: f64,
+    /// Steps that were not iterated: largest |G − λ| / max(|G|, one axle load), the force that was missing.
+    pub explicit: Option<f64>,
+    /// Work at the interface, all steps together.
+    pub work: Work,
 }
 
 /// A run that cannot go on.

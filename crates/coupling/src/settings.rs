@@ -62,6 +62,9 @@ pub struct Settings {
     pub max_iterations: usize,
     /// Send forces as held means even to a bridge that can interpolate.
     pub hold_forces: bool,
+    /// The train–track subsystem's coupled outputs are means over the step (of its sub-steps), not end values: they go to
+    /// the bridge as they are, held.
+    pub mean_forces: bool,
     /// Policy for a step that does not converge.
     pub on_failure: OnFailure,
 }

@@ -54,6 +54,14 @@ pub trait Subsystem {
     /// The subsystem cannot.
     fn restore(&mut self) -> Result<(), Failure>;
 
+    /// Work of the coupled forces on the deck over the last step, J, as this side has counted it; `None`: it does not say.
+    ///
+    /// # Errors
+    /// The subsystem refuses.
+    fn work(&mut self) -> Result<Option<f64>, Failure> {
+        Ok(None)
+    }
+
     /// Whether [`Subsystem::set_inputs`] understands rates.
     fn can_interpolate(&self) -> bool;
 

@@ -40,7 +40,11 @@ impl Coupling {
         sides.bridge.restore()?;
         self.exchange.bridge(sides, self.forces.now(), &self.lambda, true)?;
         let negligible = NEGLIGIBLE * self.settings.tolerance * self.settings.force_scale;
-        if self.strategy.newton().is_some_and(|newton| newton.foresaw(&self.exchange.motion, negligible)) {
+        if let Some(newton) = self.strategy.newton()
+            && newton.foresaw(&self.exchange.motion, negligible)
+        {
+            // Both sides agree on the motion that the train–track subsystem knows: its next step begins there.
+            newton.foreseen(&mut self.exchange.motion);
             return Ok(true);
         }
         sides.train_track.restore()?;
@@ -88,9 +92,8 @@ impl Coupling {
             residual,
             contraction,
             roll_backs: k - 1,
-            halvings: 0,
-            rescues: 0,
             method: self.strategy.in_force(),
+            ..StepInfo::default()
         })
     }
 

@@ -68,6 +68,7 @@ fn settings() -> Settings {
         force_scale: 1.0,
         max_iterations: 30,
         hold_forces: false,
+        mean_forces: false,
         on_failure: OnFailure::Stop,
     }
 }

@@ -113,7 +113,17 @@ fn coupling() -> Coupling {
     Coupling::new(
         N,
         2 * N,
-        Settings { method, reuse: 2, predictor, tolerance, force_scale, max_iterations, hold_forces, on_failure },
+        Settings {
+            method,
+            reuse: 2,
+            predictor,
+            tolerance,
+            force_scale,
+            max_iterations,
+            hold_forces,
+            mean_forces: false,
+            on_failure,
+        },
     )
 }
 

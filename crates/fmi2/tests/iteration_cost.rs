@@ -89,6 +89,7 @@ fn settings(method: Method) -> Settings {
         force_scale: 100.0,
         max_iterations: 30,
         hold_forces: false,
+        mean_forces: false,
         on_failure: OnFailure::Stop,
     }
 }

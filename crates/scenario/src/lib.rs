@@ -17,6 +17,7 @@ mod resolve;
 mod schema;
 pub mod space;
 pub mod spec;
+pub mod step;
 pub mod travel;
 pub mod types;
 mod walk;

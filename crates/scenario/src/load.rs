@@ -13,6 +13,7 @@ use sha2::{Digest, Sha256};
 use crate::pieces::Pieces;
 use crate::problem::{Problems, Report};
 use crate::spec::{BridgeSpec, StructureSpec, TrainTrackSpec};
+use crate::step::Steps;
 use crate::types::{Car, CouplingSettings, Scenario};
 use crate::{check, json, resolve, schema, walk};
 
@@ -38,6 +39,32 @@ pub struct Checked {
     pub hash: String,
     /// Static load of one axle, N, the largest of all cars: the scale of the coupling's tolerance.
     pub axle_load: f64,
+}
+
+impl Checked {
+    /// Macro step and sub-steps: given, or with `auto` those that frequencies ask for until [`Checked::set_steps`].
+    #[must_use]
+    pub fn steps(&self) -> Steps {
+        Steps { step: self.train_track.step, substeps: self.train_track.substeps }
+    }
+
+    /// Takes other steps.
+    pub fn set_steps(&mut self, steps: Steps) {
+        (self.train_track.step, self.train_track.substeps, self.bridge.step) = (steps.step, steps.substeps, steps.step);
+        self.hash = hash(&self.train_track, &self.bridge, &self.scenario.coupling);
+    }
+
+    /// The train–track output that an input `support[…].force` of the bridge gets: of several sub-steps the mean force.
+    #[must_use]
+    pub fn sent_force(&self, input: &str) -> String {
+        if self.steps().substeps > 1 { input.replace(".force", ".mean_force") } else { input.into() }
+    }
+
+    /// The iteration's settings.
+    #[must_use]
+    pub fn settings(&self) -> ttb_coupling::Settings {
+        self.scenario.coupling.settings(self.axle_load, self.train_track.substeps)
+    }
 }
 
 /// Reads and checks a scenario file.
@@ -86,17 +113,12 @@ pub fn from_str(text: &str, base_dir: &Path, file_name: &str) -> Result<Checked,
     };
     Ok(Checked {
         hash: hash(&train_track, &bridge, &scenario.coupling),
-        axle_load: train_track.cars.iter().map(axle_load).fold(0.0, f64::max),
+        axle_load: train_track.cars.iter().map(Car::axle_load).fold(0.0, f64::max),
         scenario,
         train_track,
         bridge,
         warnings: report.warnings,
     })
-}
-
-/// Static load of one axle, N.
-fn axle_load(car: &Car) -> f64 {
-    GRAVITY * (0.25 * car.body_mass + 0.5 * car.bogie_mass + car.wheelset_mass)
 }
 
 fn hash(train_track: &TrainTrackSpec, bridge: &BridgeSpec, coupling: &CouplingSettings) -> String {

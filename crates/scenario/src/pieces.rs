@@ -4,7 +4,8 @@ use serde::de::DeserializeOwned;
 use serde_json::Value;
 
 use crate::types::{
-    Bridge, CarChoice, Damping, Irregularity, Newmark, Point, Rail, Speed, Structure, Time, Track, TrackChoice, Train,
+    Bridge, CarChoice, CouplingSettings, Damping, Irregularity, Newmark, Point, Rail, RailPoint, Speed, Structure,
+    Time, Track, TrackChoice, Train,
 };
 
 /// Whatever can be read; `None` is what the schema's walker has complained about.
@@ -20,8 +21,10 @@ pub(crate) struct Pieces {
     pub structure: Option<Structure>,
     pub damping: Option<Damping>,
     pub points: Vec<Option<Point>>,
+    pub rail_points: Vec<Option<RailPoint>>,
     pub time: Option<Time>,
     pub newmark: Option<Newmark>,
+    pub coupling: Option<CouplingSettings>,
 }
 
 impl Pieces {
@@ -41,8 +44,10 @@ impl Pieces {
             structure: piece(&scenario["bridge"]["structure"]),
             damping: piece(&scenario["bridge"]["damping"]),
             points: list(&scenario["bridge"]["points"]),
+            rail_points: list(&scenario["track"]["points"]),
             time: piece(&scenario["time"]),
             newmark: piece(&scenario["time"]["newmark"]),
+            coupling: piece(&scenario["coupling"]),
         }
     }
 }

@@ -9,6 +9,7 @@ use crate::model;
 use crate::pieces::Pieces;
 use crate::problem::Report;
 use crate::spec::{BridgeSpec, Profile, StructureSpec, TrainTrackSpec};
+use crate::step::{Excited, Steps};
 use crate::types::{
     Car, CarChoice, FrameChoice, Irregularity, Model, ModelChoice, Scenario, Speed, Structure, TrackChoice, TrackType,
 };
@@ -109,9 +110,10 @@ fn scale(irregularity: &Irregularity) -> f64 {
 pub(crate) fn specs(scenario: &Scenario, resolved: Resolved) -> Option<(TrainTrackSpec, BridgeSpec)> {
     let (track, structure) = (resolved.track?, resolved.structure?);
     let (laid, bridge, time) = (&scenario.track, &scenario.bridge, scenario.time);
+    let given = Steps { step: time.step.given().unwrap_or(time.end), substeps: time.substeps.unwrap_or(1) };
     let supports =
         Deck::new(&structure)?.supports(bridge.at, laid.from, track.spacing, laid.bays + 1, bridge.over_bearings);
-    let train_track = TrainTrackSpec {
+    let mut train_track = TrainTrackSpec {
         cars: resolved.cars?,
         front_wheel: scenario.train.front_wheel,
         speed: resolved.speed?,
@@ -125,10 +127,16 @@ pub(crate) fn specs(scenario: &Scenario, resolved: Resolved) -> Option<(TrainTra
         on_bridge: supports.iter().map(|(i, _)| *i).collect(),
         irregularity: resolved.profile?,
         irregularity_scale: scale(&scenario.irregularity),
-        step: time.step,
+        rail_points: laid.points.clone(),
+        step: given.step,
+        substeps: given.substeps,
         end: time.end,
         newmark: time.newmark,
     };
+    if time.step.given().is_none() {
+        let steps = Excited::of(&train_track).steps(time.substeps);
+        (train_track.step, train_track.substeps) = (steps.step.min(time.end), steps.substeps);
+    }
     let bridge = BridgeSpec {
         structure,
         damping: bridge.damping.clone(),
@@ -136,7 +144,7 @@ pub(crate) fn specs(scenario: &Scenario, resolved: Resolved) -> Option<(TrainTra
         reduction: bridge.reduction,
         supports: supports.iter().map(|(_, x)| *x).collect(),
         points: bridge.points.clone(),
-        step: time.step,
+        step: train_track.step,
         end: time.end,
         newmark: time.newmark,
     };

@@ -4,7 +4,9 @@ use std::path::PathBuf;
 
 use serde::{Deserialize, Serialize};
 
-use crate::types::{Car, Contact, Damping, Frame, Model, Newmark, Point, Ramp, Reduction, Span, TrackType, Wave};
+use crate::types::{
+    Car, Contact, Damping, Frame, Model, Newmark, Point, RailPoint, Ramp, Reduction, Span, TrackType, Wave,
+};
 
 /// All the train–track subsystem is built from (`resources/train-track.json`).
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -35,8 +37,12 @@ pub struct TrainTrackSpec {
     pub irregularity: Profile,
     /// Factor on the irregularity.
     pub irregularity_scale: f64,
-    /// Step and end, s.
+    /// Monitored points of the rail.
+    pub rail_points: Vec<RailPoint>,
+    /// Macro step, s.
     pub step: f64,
+    /// Internal steps in each of them.
+    pub substeps: usize,
     /// End of the run, s.
     pub end: f64,
     /// Newmark's parameters.

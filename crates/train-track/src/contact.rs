@@ -14,7 +14,7 @@
 //!
 //! I + S Y S is symmetric and positive definite even where wheels have lifted off (D = 0): one dense Cholesky per iteration.
 
-use ttb_scenario::types::{Contact, ContactLaw, Tread};
+use ttb_scenario::types::{Contact, ContactLaw};
 
 /// Contact law of one axle.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -35,11 +35,7 @@ pub struct Law {
 impl Law {
     /// For an axle with static load `load` (N).
     pub fn new(contact: &Contact, load: f64) -> Self {
-        let r = contact.wheel_radius;
-        let g = contact.hertz_constant.unwrap_or_else(|| match contact.tread {
-            Tread::Worn => 3.86e-8 * r.powf(-0.115),
-            Tread::Conical => 4.57e-8 * r.powf(-0.149),
-        });
+        let g = contact.constant();
         let contacts = f64::from(contact.wheels_per_axle);
         let root = (load / contacts).cbrt();
         let (static_approach, static_stiffness) = (g * root * root, contacts * 1.5 * root / g);

@@ -8,6 +8,7 @@ pub mod compliance;
 pub mod contact;
 pub mod coupled;
 mod model;
+pub mod over;
 pub mod profile;
 pub mod speed;
 pub mod statics;

@@ -14,6 +14,7 @@ use ttb_scenario::travel::wheel_offsets;
 use crate::car::{AXLES, Car};
 use crate::contact::{Contacts, Law};
 use crate::coupled::{State, StepMatrices, TrainTrackSystem};
+use crate::over::Over;
 use crate::profile::Irregularity;
 use crate::speed::Running;
 use crate::statics;
@@ -49,9 +50,10 @@ struct Built {
     input_meaning: f64,
     state: Arc<State>,
     pool: Pool<State>,
-    /// [d…, ḋ…] at the end of a sub-step, and the mean support forces.
+    /// [d…, ḋ…] at the end of a sub-step.
     deck: Vec<f64>,
-    mean: Vec<f64>,
+    /// What the last macro step adds to its end.
+    over: Over,
 }
 
 fn error(message: impl Into<String>) -> ModelError {
@@ -85,7 +87,7 @@ impl TrainTrack {
     fn outputs(&self, values: &mut Values, t: f64) {
         if let Some(b) = &self.built {
             let out = &mut values.all[self.interface.outputs()];
-            variables::write_outputs(&b.system, &b.state, &b.mean, t, out);
+            variables::write_outputs(&b.system, &b.state, &b.over, t, out);
         }
     }
 }
@@ -139,13 +141,15 @@ impl Model for TrainTrack {
         let irregularity = Irregularity::new(&spec.irregularity, spec.irregularity_scale, way, Some(seed));
         let statics = track.effective(0.0, 0.0).factorise().map_err(|e| error(format!("track at rest: {e}")))?;
         let (n, supports) = (track.order(), track.bridge_supports());
+        let points: Option<Vec<_>> = spec.rail_points.iter().map(|point| track.locate(point.x)).collect();
+        let over = Over::new(supports, points.ok_or_else(|| error("a monitored point lies beyond the rail"))?);
         let offsets = wheel_offsets(&spec.cars);
         let system =
             TrainTrackSystem::new(track, cars, Contacts::new(laws), offsets, spec.front_wheel, running, irregularity);
         let steps = vec![system.matrices(newmark).map_err(error)?];
         let state = Arc::new(State::rest(n, system.cars.len(), supports));
         let input_meaning = get(Parameter::InputMeaning);
-        let (deck, mean) = (vec![0.0; 2 * supports], vec![0.0; supports]);
+        let deck = vec![0.0; 2 * supports];
         self.built = Some(Built {
             system,
             statics,
@@ -156,7 +160,7 @@ impl Model for TrainTrack {
             state,
             pool: Pool::default(),
             deck,
-            mean,
+            over,
         });
         Ok(())
     }
@@ -221,7 +225,7 @@ impl Model for TrainTrack {
 impl Built {
     fn replace(&mut self, state: State) {
         self.state = Arc::new(state);
-        self.mean.copy_from_slice(&self.state.supports);
+        self.over.rest(&self.state);
     }
 
     /// Position of the matrices for sub-steps of `h` seconds; factorises when the size is new.
@@ -247,17 +251,15 @@ impl Built {
             return Err(format!("a step of {h} s has more than {MOST_SUBSTEPS} parts of step_size = {nominal} s"));
         }
         let matrices = self.matrices(h / parts)?;
-        let supports = self.mean.len();
-        self.mean.fill(0.0);
+        let supports = self.over.mean.len();
+        self.over.begin();
         for part in 1..=parts as u64 {
             let tau = h * (part as f64 / parts);
             self.deck_at(inputs, rates, tau, supports);
             let mut buffer = self.pool.take(|| State::clone(&self.state));
             let Some(new) = Arc::get_mut(&mut buffer) else { return Err("a state buffer is in use".into()) };
             self.system.step(&self.steps[matrices], &self.state, new, &self.deck, t + tau)?;
-            for ((mean, old), new) in self.mean.iter_mut().zip(&self.state.supports).zip(&new.supports) {
-                *mean += 0.5 * (old + new) / parts;
-            }
+            self.over.add(&self.system.track, &self.state, new, parts);
             self.pool.give(&buffer);
             self.state = buffer;
         }

@@ -1,10 +1,14 @@
 //! Interface list of the train–track subsystem, and how a state fills its outputs.
 
+use ttb_coupling::work::WORK;
 use ttb_coupling::{Interface, Kind, Values, Variable};
+use ttb_dynamics::newmark::Motion;
 use ttb_scenario::spec::{Profile, TrainTrackSpec};
 
 use crate::car::{AXLES, DOFS};
 use crate::coupled::{State, TrainTrackSystem};
+use crate::over::Over;
+use crate::track::RailPoint;
 
 /// What a held input means, enumeration parameter `input_meaning`.
 const INPUT_MEANING: &[(&str, &str)] = &[
@@ -97,6 +101,20 @@ pub fn interface(spec: &TrainTrackSpec) -> Interface {
             ),
         ]);
     }
+    for point in &spec.rail_points {
+        let name = |what: &str| format!("rail[{}].{what}", point.name);
+        outputs.extend([
+            Variable::output(name("displacement"), "m", "Displacement of the rail, down"),
+            Variable::output(name("velocity"), "m/s", "Velocity of the rail, down"),
+            Variable::output(name("acceleration"), "m/s2", "Acceleration of the rail, down"),
+            Variable::output(
+                name("peak_acceleration"),
+                "m/s2",
+                "Acceleration of the greatest amount at the ends of the last step's sub-steps",
+            ),
+        ]);
+    }
+    outputs.push(Variable::output(WORK, "J", "Work of all support forces on the deck over the last step"));
     Interface::new(inputs, outputs, parameters(spec))
 }
 
@@ -132,7 +150,7 @@ fn parameters(spec: &TrainTrackSpec) -> Vec<Variable> {
         real(
             "step_size",
             "s",
-            spec.step,
+            spec.step / spec.substeps as f64,
             "Step that is factorised for; other steps are divided into parts not longer than this",
         ),
         real("gamma", "1", spec.newmark.gamma, "Newmark's gamma"),
@@ -152,12 +170,14 @@ fn parameters(spec: &TrainTrackSpec) -> Vec<Variable> {
     ]
 }
 
-/// Writes all outputs of `state` at time `t` after the start; `mean` are the mean support forces.
-pub fn write_outputs(system: &TrainTrackSystem, state: &State, mean: &[f64], t: f64, out: &mut [f64]) {
+/// Writes all outputs of `state` at time `t` after the start; `over` is what the last step adds.
+pub fn write_outputs(system: &TrainTrackSystem, state: &State, over: &Over, t: f64, out: &mut [f64]) {
     let n = state.supports.len();
     out[..n].copy_from_slice(&state.supports);
-    out[n..2 * n].copy_from_slice(mean);
-    let (wheels, cars) = out[2 * n..].split_at_mut(4 * state.forces.len());
+    out[n..2 * n].copy_from_slice(&over.mean);
+    let (wheels, rest) = out[2 * n..].split_at_mut(4 * state.forces.len());
+    let (cars, rest) = rest.split_at_mut(5 * system.cars.len());
+    let (rail, work) = rest.split_at_mut(4 * over.points.len());
     for (axle, wheel) in wheels.chunks_exact_mut(4).enumerate() {
         let z = state.cars.u[axle / AXLES * DOFS + crate::car::FIRST_WHEEL + axle % AXLES];
         let rail = z - state.delta[axle] - system.roughness[axle];
@@ -167,4 +187,10 @@ pub fn write_outputs(system: &TrainTrackSystem, state: &State, mean: &[f64], t: 
         let (u, a) = (&state.cars.u[c * DOFS..], &state.cars.a[c * DOFS..]);
         car.copy_from_slice(&[u[0], a[0], a[1], a[2], a[4]]);
     }
+    let at = |point: &RailPoint, values: &[f64]| system.track.deflection(point, values);
+    let Motion { u, v, a } = &state.track;
+    for ((out, point), peak) in rail.chunks_exact_mut(4).zip(&over.points).zip(&over.peaks) {
+        out.copy_from_slice(&[at(point, u), at(point, v), at(point, a), *peak]);
+    }
+    work.fill(over.work);
 }

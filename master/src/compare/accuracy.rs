@@ -7,8 +7,10 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use ttb_bridge::Bridge;
 use ttb_coupling::run::{TimeAxis, run as run_steps};
+use ttb_coupling::work::WORK;
 use ttb_coupling::{Coupling, InProcess, Interface, Model, ModelError, Pair};
 use ttb_scenario::Checked;
+use ttb_scenario::step::Steps;
 use ttb_train_track::TrainTrack;
 
 use crate::build;
@@ -29,7 +31,7 @@ pub struct Kind {
 
 /// The command.
 pub fn accuracy(arguments: &Accuracy) -> Result<(), Error> {
-    let checked = build::scenario(arguments.scenario.as_deref())?;
+    let checked = build::decided(arguments.scenario.as_deref())?;
     let folder = &arguments.output;
     let fine = arguments.reference;
     let mut steps = arguments.steps.clone();
@@ -73,20 +75,21 @@ type Histories = Vec<(String, Vec<f64>)>;
 /// Runs the scenario at a step; all outputs but those of the supports and the wheels' positions.
 fn histories(checked: &Checked, h: f64, quiet: bool, stop: &AtomicBool) -> Result<Histories, Error> {
     let mut checked = checked.clone();
-    (checked.train_track.step, checked.bridge.step) = (h, h);
+    checked.set_steps(Steps { step: h, substeps: checked.steps().substeps });
     let refused = |e: ModelError| Error::Input(e.to_string());
     let train_track = TrainTrack::new(checked.train_track.clone()).map_err(refused)?;
     let bridge = Bridge::new(checked.bridge.clone()).map_err(refused)?;
     let wanted = |interface: &Interface| -> Vec<(String, u32)> {
         let names = interface.outputs().map(|r| (interface.variables()[r].name.clone(), r as u32));
-        names.filter(|(name, _)| !name.starts_with("support[") && !name.ends_with("].position")).collect()
+        names.filter(|(name, _)| reported(name)).collect()
     };
     let (of_train, of_bridge) = (wanted(train_track.interface()), wanted(bridge.interface()));
     let references = [&of_train, &of_bridge].map(|list| list.iter().map(|(_, r)| *r).collect::<Vec<u32>>());
     let names = of_train.into_iter().chain(of_bridge).map(|(name, _)| (name, Vec::new()));
     let mut table: Histories = names.collect();
-    let Pair { mut train_track, mut bridge, coupled } = Pair::new(train_track, bridge).map_err(refused)?;
-    let mut coupling = Coupling::new(coupled.0, coupled.1, checked.scenario.coupling.settings(checked.axle_load));
+    let Pair { mut train_track, mut bridge, coupled } =
+        Pair::new(train_track, bridge, |force| checked.sent_force(force)).map_err(refused)?;
+    let mut coupling = Coupling::new(coupled.0, coupled.1, checked.settings());
     coupling.initialise(&mut train_track, &mut bridge, 0.0)?;
     let mut row = vec![0.0; table.len()];
     let mut read = |t: &mut InProcess<TrainTrack>, b: &mut InProcess<Bridge>| {
@@ -107,6 +110,11 @@ fn histories(checked: &Checked, h: f64, quiet: bool, stop: &AtomicBool) -> Resul
     })?;
     bar.finish_and_clear();
     if ended.is_break() { Err(Error::Interrupted) } else { Ok(table) }
+}
+
+/// Not what is no result (places) or depends on the step by itself (its work).
+fn reported(name: &str) -> bool {
+    !name.starts_with("support[") && !name.ends_with("].position") && name != WORK
 }
 
 /// Errors of every kind; the fine run has `parts` steps in one of the coarse run.

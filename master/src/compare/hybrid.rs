@@ -7,6 +7,7 @@ use ttb_bridge::Bridge;
 use ttb_coupling::run::{TimeAxis, run as run_steps};
 use ttb_coupling::{Coupling, InProcess, Model, ModelError, Pair, StepInfo};
 use ttb_scenario::Checked;
+use ttb_scenario::step::Steps;
 use ttb_train_track::TrainTrack;
 
 use crate::clock::cpu;
@@ -14,8 +15,8 @@ use crate::compare::rows::{Method, Planned};
 use crate::compare::{Bench, Ran, Watched, progress};
 use crate::error::Error;
 
-/// Sub-steps of train and track in a multi-time-step row.
-const SUB_STEPS: f64 = 10.0;
+/// Sub-steps of train and track in a multi-time-step row, where the scenario has none.
+const SUB_STEPS: usize = 10;
 
 /// Runs a row.
 pub fn run(bench: &Bench, row: &Planned) -> Result<Ran, Error> {
@@ -25,9 +26,9 @@ pub fn run(bench: &Bench, row: &Planned) -> Result<Ran, Error> {
     let train_track = TrainTrack::new(checked.train_track.clone()).map_err(refused)?;
     let bridge = Bridge::new(checked.bridge.clone()).map_err(refused)?;
     let outputs = Outputs::new(&train_track, &bridge, &bench.watched)?;
-    let Pair { mut train_track, mut bridge, coupled } = Pair::new(train_track, bridge).map_err(refused)?;
-    let settings = checked.scenario.coupling.settings(checked.axle_load);
-    let mut coupling = Coupling::new(coupled.0, coupled.1, settings);
+    let Pair { mut train_track, mut bridge, coupled } =
+        Pair::new(train_track, bridge, |force| checked.sent_force(force)).map_err(refused)?;
+    let mut coupling = Coupling::new(coupled.0, coupled.1, checked.settings());
     coupling.initialise(&mut train_track, &mut bridge, 0.0)?;
     let axis = TimeAxis::new(row.step, checked.train_track.end);
     let mut ran = Ran { method: row.name.clone(), step: row.step, steps: axis.steps(), ..Ran::default() };
@@ -55,15 +56,12 @@ pub fn run(bench: &Bench, row: &Planned) -> Result<Ran, Error> {
     Ok(ran)
 }
 
-/// The scenario at a row's step. A multi-time-step row takes that as the macro step and divides it for train and track.
+/// The scenario at a row's step, a multi-time-step row with sub-steps of train and track.
 fn with_step(checked: &Checked, row: &Planned) -> Checked {
     let mut checked = checked.clone();
-    checked.train_track.step = row.step;
-    checked.bridge.step = row.step;
-    if row.method == Method::Multi {
-        // The train–track subsystem divides a macro step that is longer than its own.
-        checked.train_track.step = row.step / SUB_STEPS;
-    }
+    let own = checked.steps().substeps;
+    let several = if own > 1 { own } else { SUB_STEPS };
+    checked.set_steps(Steps { step: row.step, substeps: if row.method == Method::Multi { several } else { 1 } });
     checked
 }
 

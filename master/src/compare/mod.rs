@@ -34,7 +34,7 @@ struct Bench<'a> {
 
 /// The command.
 pub fn compare(arguments: &Compare) -> Result<(), Error> {
-    let checked = build::scenario(arguments.scenario.as_deref())?;
+    let checked = build::decided(arguments.scenario.as_deref())?;
     let watched = Watched::new(&checked, arguments)?;
     let folder = &arguments.output;
     std::fs::create_dir_all(folder).map_err(Error::io(folder))?;

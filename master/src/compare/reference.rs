@@ -4,6 +4,7 @@ use std::sync::atomic::Ordering;
 
 use ttb_reference::{Method as Reference, ReferenceError, StepReport, Stepper, Whole};
 use ttb_scenario::Checked;
+use ttb_scenario::spec::TrainTrackSpec;
 
 use crate::clock::cpu;
 use crate::compare::rows::{Method, Planned};
@@ -24,7 +25,9 @@ impl Prepared {
     pub fn whole(&mut self, checked: &Checked) -> Result<&Whole, Error> {
         if self.whole.is_none() {
             let begin = cpu();
-            let whole = Whole::new(&checked.train_track, &checked.bridge).map_err(case)?;
+            // These methods have one step for all.
+            let spec = TrainTrackSpec { substeps: 1, ..checked.train_track.clone() };
+            let whole = Whole::new(&spec, &checked.bridge).map_err(case)?;
             self.preparation = cpu() - begin;
             self.whole = Some(whole);
         }

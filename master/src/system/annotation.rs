@@ -20,6 +20,8 @@ const FORCE_SCALE: f64 = 100e3;
 pub struct Settings {
     /// Macro step, s.
     pub step: Option<f64>,
+    /// Internal steps of the train–track FMU in each; more than one: its mean forces are coupled.
+    pub substeps: usize,
     /// Scale of the tolerance, N.
     pub force_scale: f64,
     /// The component that sends forces.
@@ -36,6 +38,7 @@ impl Default for Settings {
     fn default() -> Self {
         Self {
             step: None,
+            substeps: 1,
             force_scale: FORCE_SCALE,
             train_track: None,
             output: Output::default(),
@@ -50,6 +53,9 @@ pub fn write(settings: &Settings) -> Vec<Annotation> {
     let mut attributes = Vec::new();
     attributes.extend(settings.train_track.iter().map(|name| ("train_track".to_string(), name.clone())));
     attributes.extend(settings.step.map(|step| ("step".to_string(), format!("{step:?}"))));
+    if settings.substeps > 1 {
+        attributes.push(("substeps".into(), settings.substeps.to_string()));
+    }
     attributes.push(("force_scale".into(), format!("{:?}", settings.force_scale)));
     if let Ok(Value::Object(coupling)) = serde_json::to_value(settings.coupling) {
         attributes.extend(coupling.into_iter().map(|(key, value)| (key, text(&value))));
@@ -119,14 +125,16 @@ fn set(settings: &mut Settings, coupling: &mut Map<String, Value>, key: &str, te
         let value = text.trim().parse().ok().filter(|x: &f64| *x > 0.0 && x.is_finite());
         value.ok_or_else(|| format!("must be a positive number: {text:?}"))
     };
+    let count = || {
+        let count = text.trim().parse().ok().filter(|count| *count > 0);
+        count.ok_or_else(|| format!("must be a whole number from 1: {text:?}"))
+    };
     match key {
         "train_track" => settings.train_track = Some(text.to_string()),
         "step" => settings.step = Some(positive()?),
         "force_scale" => settings.force_scale = positive()?,
-        "output_every" => {
-            let every = text.trim().parse().ok().filter(|every| *every > 0);
-            settings.output.every = every.ok_or_else(|| format!("must be a whole number from 1: {text:?}"))?;
-        }
+        "substeps" => settings.substeps = count()?,
+        "output_every" => settings.output.every = count()?,
         "output_supports" => {
             settings.output.supports = match text.trim() {
                 "true" | "1" => true,
@@ -144,7 +152,7 @@ fn setting(key: &str, text: &str) -> Result<Value, String> {
     let schema = ttb_scenario::schema();
     let known = &schema["$defs"]["CouplingSettings"]["properties"];
     let Some(rule) = known.get(key) else {
-        let own = ["train_track", "step", "force_scale", "output_every", "output_supports"];
+        let own = ["train_track", "step", "substeps", "force_scale", "output_every", "output_supports"];
         let names: Vec<&str> =
             known.as_object().into_iter().flat_map(Map::keys).map(String::as_str).chain(own).collect();
         return Err(format!("is no setting; there are {}", names.join(", ")));
@@ -175,7 +183,7 @@ mod tests {
     fn settings_come_back_bit_for_bit_and_every_wrong_one_is_found() {
         let mut settings = Settings { step: Some(0.1 + 0.2), train_track: Some("Zug".into()), ..Settings::default() };
         settings.coupling.tolerance = 1e-9 / 3.0;
-        (settings.coupling.max_iterations, settings.output.supports) = (7, true);
+        (settings.coupling.max_iterations, settings.output.supports, settings.substeps) = (7, true, 12);
         let written = write(&settings);
         let mut report = Report::new("a.ssp");
         assert_eq!(read(&written, &mut report), settings);

@@ -12,6 +12,7 @@ use ttb_ssp::{
 use super::annotation::{Settings, write};
 use crate::build;
 use crate::cli::ExportSsp;
+use crate::connect::mean;
 use crate::error::Error;
 
 const NAME: &str = "TrainTrackBridge";
@@ -21,7 +22,7 @@ const COMPONENTS: [(&str, [f64; 4]); 2] =
 
 /// The command; returns the archive's path.
 pub fn export(arguments: &ExportSsp) -> Result<PathBuf, Error> {
-    let checked = build::scenario(arguments.scenario.as_deref())?;
+    let checked = build::decided(arguments.scenario.as_deref())?;
     let text = match &arguments.scenario {
         Some(path) => std::fs::read_to_string(path).map_err(Error::io(path))?,
         None => ttb_scenario::default_scenario_text().to_string(),
@@ -62,7 +63,8 @@ fn describe(fmu: &Path) -> Result<ModelDescription, Error> {
 fn structure(checked: &Checked, [train_track, bridge]: &[ModelDescription; 2]) -> Structure {
     let title = Some(checked.scenario.title.clone()).filter(|title| !title.is_empty());
     let settings = Settings {
-        step: Some(checked.train_track.step),
+        step: Some(checked.steps().step),
+        substeps: checked.steps().substeps,
         force_scale: checked.axle_load,
         train_track: Some(COMPONENTS[0].0.into()),
         output: checked.scenario.output,
@@ -70,8 +72,10 @@ fn structure(checked: &Checked, [train_track, bridge]: &[ModelDescription; 2]) -
         place: String::new(),
     };
     let [first, second] = COMPONENTS.map(|(name, _)| name);
-    let forces = connections((first, train_track), (second, bridge));
-    let motions = connections((second, bridge), (first, train_track));
+    let equal = |input: &str| input.to_string();
+    let of_force = |input: &str| if settings.substeps > 1 { mean(input) } else { input.to_string() };
+    let forces = connections((first, train_track), (second, bridge), &of_force);
+    let motions = connections((second, bridge), (first, train_track), &equal);
     let mut units: Vec<Unit> = Vec::new();
     for (name, unit) in train_track.units.iter().chain(&bridge.units) {
         if units.iter().all(|known| known.name != *name) {
@@ -122,14 +126,15 @@ fn component(name: &str, geometry: [f64; 4], description: &ModelDescription) -> 
     }
 }
 
-/// Outputs of one to the inputs of equal name of the other.
+/// Outputs of one to the inputs of the other; `output` names the one for an input.
 fn connections<'a>(
     (from, outputs): (&'a str, &'a ModelDescription),
     (to, inputs): (&'a str, &'a ModelDescription),
+    output: &'a dyn Fn(&str) -> String,
 ) -> impl Iterator<Item = Connection> + 'a {
     let fits = |name: &str| outputs.variable(name).is_some_and(|v| v.causality == "output");
-    inputs.with_causality("input").filter(move |v| fits(&v.name)).map(move |v| Connection {
-        start: (Some(from.into()), v.name.clone()),
+    inputs.with_causality("input").filter(move |v| fits(&output(&v.name))).map(move |v| Connection {
+        start: (Some(from.into()), output(&v.name)),
         end: (Some(to.into()), v.name.clone()),
         factor: 1.0,
         offset: 0.0,

@@ -82,6 +82,8 @@ impl Opened {
             origin: Origin::System(fingerprint(path)?),
             irregularity_seed: None,
             step,
+            substeps: settings.substeps,
+            choice: None,
             end,
             output: settings.output,
         };
@@ -102,9 +104,10 @@ impl Opened {
         let train_track = instantiate(fmu, name, self.job.end, &none)?;
         let (name, path) = &self.bridge;
         let bridge = Bridge::open(path, name, isolated.bridge.as_ref(), self.job.end, &none)?;
-        let Settings { coupling, force_scale, .. } = &self.settings;
+        let Settings { coupling, force_scale, substeps, .. } = &self.settings;
+        let settings = coupling.settings(*force_scale, *substeps);
         let parts = vec![(bridge, self.assigned.clone())];
-        couple(train_track, parts, coupling, *force_scale, self.job.step, trusted, self.warnings.clone())
+        couple(train_track, parts, settings, coupling.send, self.job.step, trusted, self.warnings.clone())
     }
 }
 

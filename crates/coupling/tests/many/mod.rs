@@ -71,6 +71,7 @@ pub fn settings(method: Method) -> Settings {
         force_scale: 100.0,
         max_iterations: 30,
         hold_forces: false,
+        mean_forces: false,
         on_failure: OnFailure::Stop,
     }
 }

@@ -5,6 +5,7 @@ use super::error::FmuError;
 use super::instance::FmuInstance;
 use super::state::StateSlot;
 use super::transform::{Linear, Transform};
+use ttb_coupling::work::WORK;
 use ttb_coupling::{Failure, Subsystem};
 
 /// Makes an instance like a coupled one, coupled alike and in initialization mode.
@@ -17,6 +18,7 @@ pub struct FmuSubsystem {
     inputs: Vec<u32>,
     orders: Vec<i32>,
     outputs: Vec<u32>,
+    work: Option<u32>,
     slot: StateSlot,
     transform: Option<Transform>,
     roll_back: bool,
@@ -45,10 +47,12 @@ impl FmuSubsystem {
         if !problems.is_empty() {
             return Err(instance.impossible(problems.join("; ")));
         }
+        let work = instance.description().variable(WORK);
+        let work = work.filter(|v| v.kind == VariableType::Real && v.causality == "output").map(|v| v.value_reference);
         let slot = instance.new_slot();
         let roll_back = instance.can_restore();
         let (orders, transform, another) = (vec![1; inputs.len()], None, None);
-        Ok(Self { orders, inputs, outputs, slot, instance, transform, roll_back, another, time: 0.0 })
+        Ok(Self { orders, inputs, outputs, work, slot, instance, transform, roll_back, another, time: 0.0 })
     }
 
     /// Never saves or restores, whatever the FMU promises; `another` makes instances to be tried and thrown away in its
@@ -141,6 +145,13 @@ impl Subsystem for FmuSubsystem {
 
     fn restore(&mut self) -> Result<(), Failure> {
         self.instance.restore(&self.slot).map_err(|e| self.failure(&e))
+    }
+
+    fn work(&mut self) -> Result<Option<f64>, Failure> {
+        let Some(reference) = self.work else { return Ok(None) };
+        let mut work = [0.0];
+        self.read(&[reference], &mut work)?;
+        Ok(Some(work[0]))
     }
 
     fn can_interpolate(&self) -> bool {

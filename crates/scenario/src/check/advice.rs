@@ -14,8 +14,8 @@ const LONG_STEP: f64 = 2e-3;
 const ELEMENTS_PER_WAVE: f64 = 4.0;
 
 pub(super) fn give(pieces: &Pieces, resolved: &Resolved, rail: Option<&Rail>, way: Option<&Way>, report: &mut Report) {
-    if let Some(time) = pieces.time.filter(|time| time.step > LONG_STEP) {
-        report.warn(format!("step {} s: more than {LONG_STEP} s costs accuracy in accelerations", time.step));
+    if let Some(step) = pieces.time.and_then(|time| time.step.given()).filter(|step| *step > LONG_STEP) {
+        report.warn(format!("step {step} s: more than {LONG_STEP} s costs accuracy in accelerations"));
     }
     if let (Some(rail), Some(way)) = (rail, way) {
         margin(way.rear - rail.from, "begins", "behind the last wheel at the start", report);

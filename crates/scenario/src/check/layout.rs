@@ -1,12 +1,14 @@
 //! Rules between train, track, bridge and time: the train stands and ends on the rail, the bridge lies within the track.
 
+use std::collections::HashSet;
+
 use super::advice;
 use crate::deck::Deck;
 use crate::pieces::Pieces;
 use crate::problem::Report;
 use crate::resolve::Resolved;
 use crate::travel::{distance, speed_at, wheel_offsets};
-use crate::types::{Bridge, Irregularity, Track};
+use crate::types::{Bridge, Irregularity, RailPoint, Track};
 
 /// Relative slack for sums of lengths: a bridge may end exactly where the track ends.
 const ROUNDING: f64 = 1e-9;
@@ -53,6 +55,7 @@ pub(super) fn check(pieces: &Pieces, resolved: &Resolved, report: &mut Report) {
     if let (Some(rail), Some(way)) = (&rail, &way) {
         train_on_rail(rail, way, report);
     }
+    points_on_rail(rail.as_ref(), &pieces.rail_points, report);
     if let (Some(train), Some(speed)) = (&pieces.train, &resolved.speed)
         && train.pre_roll > 0.0
         && speed_at(speed, 0.0) == 0.0
@@ -123,6 +126,21 @@ fn train_on_rail(rail: &Rail, way: &Way, report: &mut Report) {
         let rule = "the whole train must be on the rail until the end of the run";
         let found = format!("leading wheel at {:.3} m at the end, rail ends at {:.3} m", way.end, rail.to);
         report.problem("$.time.end", rule, found);
+    }
+}
+
+fn points_on_rail(rail: Option<&Rail>, points: &[Option<RailPoint>], report: &mut Report) {
+    let mut names = HashSet::new();
+    for (i, point) in points.iter().enumerate() {
+        let Some(point) = point else { continue };
+        let path = format!("$.track.points[{i}]");
+        if !names.insert(&point.name) {
+            report.problem(format!("{path}.name"), "names of points must differ", format!("`{}`", point.name));
+        }
+        if let Some(rail) = rail.filter(|rail| !(rail.from..=rail.to).contains(&point.x)) {
+            let found = format!("{} m, the rail lies from {} to {} m", point.x, rail.from, rail.to);
+            report.problem(format!("{path}.x"), "a point must lie on the rail", found);
+        }
     }
 }
 

@@ -28,6 +28,7 @@ pub(crate) fn check(pieces: &Pieces, resolved: &Resolved, report: &mut Report) {
     }
     if let Some(time) = &pieces.time {
         run::time(time, report);
+        run::substeps(time, pieces.coupling.as_ref(), report);
     }
     if let Some(newmark) = &pieces.newmark {
         run::newmark(newmark, report);

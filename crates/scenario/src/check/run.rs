@@ -1,7 +1,7 @@
 //! Rules inside the sections on train, track, irregularity and time.
 
 use crate::problem::Report;
-use crate::types::{CarChoice, Irregularity, Newmark, Rail, Speed, Time};
+use crate::types::{CarChoice, CouplingSettings, Irregularity, Newmark, Rail, Send, Speed, Time};
 
 /// More steps than any run has, and few enough to count exactly.
 const MOST_STEPS: f64 = 1e9;
@@ -55,16 +55,33 @@ pub(super) fn irregularity(irregularity: &Irregularity, report: &mut Report) {
 }
 
 pub(super) fn time(time: &Time, report: &mut Report) {
-    if time.step > time.end {
-        report.problem(
-            "$.time.step",
-            "the step must not be longer than the run",
-            format!("{} > {} s", time.step, time.end),
-        );
+    let Some(step) = time.step.given() else { return };
+    if step > time.end {
+        report.problem("$.time.step", "the step must not be longer than the run", format!("{step} > {} s", time.end));
     }
-    if time.step > 0.0 && time.end / time.step > MOST_STEPS {
-        let found = format!("{:e}", time.end / time.step);
-        report.problem("$.time.step", "the run must have at most 1e9 steps", found);
+    if step > 0.0 && time.end / step > MOST_STEPS {
+        report.problem("$.time.step", "the run must have at most 1e9 steps", format!("{:e}", time.end / step));
+    }
+    if let Some(error) = time.error {
+        report.problem("$.time.error", "belongs to a step that is chosen: \"step\": \"auto\"", error);
+    }
+}
+
+/// Several sub-steps: the bridge gets held means, which are exact for the trapezoidal rule only.
+pub(super) fn substeps(time: &Time, coupling: Option<&CouplingSettings>, report: &mut Report) {
+    let chosen = time.step.given().is_none() && time.substeps.is_none();
+    if !chosen && time.substeps.unwrap_or(1) == 1 {
+        return;
+    }
+    let found = if chosen { "step auto chooses several; substeps 1 forbids it" } else { "several" };
+    if time.newmark != Newmark::default() {
+        let Newmark { gamma, beta } = time.newmark;
+        let rule = "sub-steps need γ = 0.5, β = 0.25: the force on the bridge is a mean";
+        report.problem("$.time.newmark", rule, format!("γ = {gamma}, β = {beta}; substeps: {found}"));
+    }
+    if coupling.is_some_and(|coupling| coupling.send == Send::Rate) {
+        let rule = "with sub-steps the force on the bridge is a mean and sent as such";
+        report.problem("$.coupling.send", rule, format!("rate; substeps: {found}"));
     }
 }
 

@@ -27,13 +27,62 @@ impl Default for Newmark {
     }
 }
 
+/// The macro step.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(untagged)]
+pub enum Step {
+    /// Chosen before the run.
+    Chosen(Auto),
+    /// s.
+    Seconds(f64),
+}
+
+/// The word `auto`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Auto {
+    /// `auto`.
+    #[serde(rename = "auto")]
+    Auto,
+}
+
+impl Step {
+    /// The step that is given, s.
+    #[must_use]
+    pub fn given(self) -> Option<f64> {
+        match self {
+            Self::Chosen(_) => None,
+            Self::Seconds(h) => Some(h),
+        }
+    }
+}
+
+impl JsonSchema for Step {
+    fn schema_name() -> std::borrow::Cow<'static, str> {
+        "Step".into()
+    }
+    fn json_schema(_: &mut schemars::SchemaGenerator) -> schemars::Schema {
+        schemars::json_schema!({ "description": "The macro step: seconds, or `auto`.", "anyOf": [
+            { "type": "string", "const": "auto", "description": "Chosen before the run, by frequencies and a probe." },
+            { "type": "number", "exclusiveMinimum": 0, "description": "s." },
+        ] })
+    }
+}
+
 /// Time axis.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[schemars(deny_unknown_fields)]
 pub struct Time {
-    /// Step h, s.
-    #[schemars(extend("exclusiveMinimum" = 0))]
-    pub step: f64,
+    /// Step h, s, or `auto`.
+    pub step: Step,
+    /// Internal steps of train and track in each of them. More than one: the bridge moves under their mean forces, train
+    /// and track on its motion interpolated (multi-time-step). Absent: 1, or chosen with the step.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 1, max = 1000))]
+    pub substeps: Option<usize>,
+    /// With `auto`: greatest estimated error of a peak, relative to the greatest of its kind; absent: 0.02.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("exclusiveMinimum" = 0), range(max = 1))]
+    pub error: Option<f64>,
     /// End of the run, s; the last step is shortened to hit it.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub end: f64,
@@ -139,8 +188,8 @@ impl Default for CouplingSettings {
 }
 
 impl CouplingSettings {
-    /// The iteration's settings; `axle_load` is the train's greatest static one, N.
-    pub fn settings(&self, axle_load: f64) -> ttb_coupling::Settings {
+    /// The iteration's settings; `axle_load` is the train's greatest static one, N, `substeps` are those of train and track.
+    pub fn settings(&self, axle_load: f64, substeps: usize) -> ttb_coupling::Settings {
         use ttb_coupling::predictor::Predictor as First;
         use ttb_coupling::settings as to;
         to::Settings {
@@ -162,6 +211,7 @@ impl CouplingSettings {
             force_scale: axle_load,
             max_iterations: self.max_iterations,
             hold_forces: self.send == Send::Mean,
+            mean_forces: substeps > 1,
             on_failure: match self.on_failure {
                 OnFailure::Stop => to::OnFailure::Stop,
                 OnFailure::Halve => to::OnFailure::Halve,

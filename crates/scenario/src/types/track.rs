@@ -3,6 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::bridge::NAME_PATTERN;
 use crate::bundled::track_names;
 
 /// Both rails as one beam.
@@ -124,6 +125,20 @@ pub struct Track {
     /// Local flexibility of the rail under a load inside an element, c_loc(ξ): on by default.
     #[serde(default = "yes")]
     pub local_compliance: bool,
+    /// Monitored points of the rail.
+    #[serde(default)]
+    pub points: Vec<RailPoint>,
+}
+
+/// A monitored point of the rail.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[schemars(deny_unknown_fields)]
+pub struct RailPoint {
+    /// Name, unique: it becomes the outputs `rail[NAME].displacement` and so on.
+    #[schemars(regex(pattern = NAME_PATTERN))]
+    pub name: String,
+    /// Abscissa, m.
+    pub x: f64,
 }
 
 fn two() -> usize {

@@ -3,6 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::GRAVITY;
 use crate::bundled::train_names;
 
 /// One car with 10 degrees of freedom. Springs and dashpots are those of a whole bogie (secondary) or a whole
@@ -137,6 +138,26 @@ pub enum Tread {
     Worn,
     /// Conical profile.
     Conical,
+}
+
+impl Contact {
+    /// G, m/N^{2/3}: as given, or by tread and wheel radius.
+    #[must_use]
+    pub fn constant(&self) -> f64 {
+        let r = self.wheel_radius;
+        self.hertz_constant.unwrap_or_else(|| match self.tread {
+            Tread::Worn => 3.86e-8 * r.powf(-0.115),
+            Tread::Conical => 4.57e-8 * r.powf(-0.149),
+        })
+    }
+}
+
+impl Car {
+    /// Static load of an axle, N.
+    #[must_use]
+    pub fn axle_load(&self) -> f64 {
+        GRAVITY * (0.25 * self.body_mass + 0.5 * self.bogie_mass + self.wheelset_mass)
+    }
 }
 
 impl Default for Contact {

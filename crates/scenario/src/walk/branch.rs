@@ -40,6 +40,14 @@ impl<'a> Walker<'a> {
             self.not_among(resolved.iter().filter_map(|branch| branch["const"].as_str()), value, path);
             return None;
         }
+        if let Some(text) = value.as_str()
+            && let Some(word) = resolved.iter().find_map(|branch| branch["const"].as_str())
+        {
+            let others = resolved.iter().flat_map(|b| types(b)).filter(|kind| *kind != "string").map(in_words);
+            let rule = others.fold(format!("must be {word}"), |rule, other| rule + " or " + other);
+            self.report.suggest(path, rule, shown(value), nearest(text, std::iter::once(word)));
+            return None;
+        }
         let fitting: Vec<&Value> = resolved.iter().copied().filter(|branch| admits(branch, value)).collect();
         match (fitting.as_slice(), value) {
             ([], _) => {

@@ -87,6 +87,33 @@ fn faults_between_fields_are_all_found() {
                 &[("$.time.step", "the run must have at most 1e9 steps")],
             ),
             case(
+                "sub-steps with damping, with rates, and an error for a step that is given",
+                &[
+                    ("/time/substeps", "10"),
+                    ("/time/newmark", "{\"gamma\": 0.6, \"beta\": 0.3025}"),
+                    ("/coupling", "{\"send\": \"rate\"}"),
+                    ("/time/error", "0.01"),
+                ],
+                &[
+                    ("$.time.newmark", "sub-steps need γ = 0.5, β = 0.25: the force on the bridge is a mean"),
+                    ("$.coupling.send", "with sub-steps the force on the bridge is a mean and sent as such"),
+                    ("$.time.error", "belongs to a step that is chosen: \"step\": \"auto\""),
+                ],
+            ),
+            case(
+                "a chosen step has sub-steps",
+                &[("/time/step", "\"auto\""), ("/time/newmark", "{\"gamma\": 0.6, \"beta\": 0.3025}")],
+                &[("$.time.newmark", "sub-steps need γ = 0.5, β = 0.25: the force on the bridge is a mean")],
+            ),
+            case(
+                "points beside the rail, twice the same name",
+                &[("/track/points", "[{\"name\": \"a\", \"x\": -9}, {\"name\": \"a\", \"x\": 10}]")],
+                &[
+                    ("$.track.points[0].x", "a point must lie on the rail"),
+                    ("$.track.points[1].name", "names of points must differ"),
+                ],
+            ),
+            case(
                 "unstable Newmark",
                 &[("/time/newmark", "{\"gamma\": 0.6, \"beta\": 0.25}")],
                 &[("$.time.newmark.beta", "β must be at least γ/2 = 0.3 (unconditional stability)")],

@@ -35,7 +35,9 @@ pub fn spec() -> TrainTrackSpec {
         on_bridge: (30..60).collect(),
         irregularity: Profile::None,
         irregularity_scale: 1.0,
+        rail_points: Vec::new(),
         step: 1e-3,
+        substeps: 1,
         end: 0.3,
         newmark: Newmark { gamma: 0.5, beta: 0.25 },
     }
