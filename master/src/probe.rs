@@ -35,13 +35,16 @@ pub struct Stage<'a> {
     pub map: Option<&'a Map>,
 }
 
-/// Least and greatest value of an output on the stretch.
+/// An output on the stretch.
 #[derive(Clone, Debug)]
-pub struct Extremes {
+pub struct Seen {
     /// FMI name.
     pub name: String,
-    /// Least, greatest.
+    /// Least, greatest value.
     pub range: [f64; 2],
+    /// Its values at the ends of all steps, if they are those of these times: what is a mean or a peak over the step before
+    /// has none.
+    pub history: Option<Vec<f64>>,
 }
 
 /// The scenario of the stretch.
@@ -62,7 +65,7 @@ pub fn stretch(checked: &Checked) -> Checked {
 }
 
 /// Runs the stretch; `None` if the iteration does not converge.
-pub fn run(short: &Checked, steps: Steps, stage: &Stage) -> Result<Option<Vec<Extremes>>, Error> {
+pub fn run(short: &Checked, steps: Steps, stage: &Stage) -> Result<Option<Vec<Seen>>, Error> {
     let folder = tempfile::tempdir().map_err(Error::io(Path::new("temporary folder")))?;
     let mut short = short.clone();
     short.set_steps(steps);
@@ -73,7 +76,8 @@ pub fn run(short: &Checked, steps: Steps, stage: &Stage) -> Result<Option<Vec<Ex
         let known = bridge.instance().description().variable("step_size").map(|v| v.value_reference);
         known.map_or(Ok(()), |reference| bridge.instance().set_real(&[reference], &[steps.step]))?;
     }
-    let mut sides = [Side::new(train_track), Side::new(bridge)];
+    // A bridge may give means as accelerations: ours does where forces are held.
+    let mut sides = [Side::new(train_track, true), Side::new(bridge, false)];
     let ended = connected.coupling.initialise(train_track, bridge, 0.0).map_err(Error::from).and_then(|_| {
         sides[0].update(train_track)?;
         sides[1].update(bridge)?;
@@ -85,7 +89,7 @@ pub fn run(short: &Checked, steps: Steps, stage: &Stage) -> Result<Option<Vec<Ex
         })
     });
     match ended {
-        Ok(_) => Ok(Some(sides.into_iter().flat_map(|side| side.extremes).collect())),
+        Ok(_) => Ok(Some(sides.into_iter().flat_map(|side| side.seen).collect())),
         Err(Error::NotConverged(IterationError::NotConverged { .. } | IterationError::Unstable { .. })) => Ok(None),
         Err(error) => Err(error),
     }
@@ -95,26 +99,31 @@ pub fn run(short: &Checked, steps: Steps, stage: &Stage) -> Result<Option<Vec<Ex
 struct Side {
     references: Vec<u32>,
     row: Vec<f64>,
-    extremes: Vec<Extremes>,
+    seen: Vec<Seen>,
 }
 
 impl Side {
-    fn new(fmu: &mut FmuSubsystem) -> Self {
+    fn new(fmu: &mut FmuSubsystem, at_times: bool) -> Self {
         let outputs = fmu.instance().description().with_causality("output");
         // Not what is no peak: places, and the work of a step, which is the less the shorter the step.
         let reported = |name: &str| !name.starts_with("support[") && !name.ends_with(".position") && name != WORK;
         let reported = outputs.filter(|v| v.kind == VariableType::Real && reported(&v.name));
         let none = [f64::INFINITY, f64::NEG_INFINITY];
-        let (references, extremes): (Vec<u32>, Vec<Extremes>) =
-            reported.map(|v| (v.value_reference, Extremes { name: v.name.clone(), range: none })).unzip();
-        Self { row: vec![0.0; references.len()], references, extremes }
+        let (references, seen): (Vec<u32>, Vec<Seen>) = reported
+            .map(|v| {
+                let history = (at_times && !v.name.ends_with(".peak_acceleration")).then(Vec::new);
+                (v.value_reference, Seen { name: v.name.clone(), range: none, history })
+            })
+            .unzip();
+        Self { row: vec![0.0; references.len()], references, seen }
     }
 
     fn update(&mut self, fmu: &mut FmuSubsystem) -> Result<(), Error> {
         fmu.read(&self.references, &mut self.row).map_err(|e| Error::Fmu(e.to_string()))?;
-        for (extremes, value) in self.extremes.iter_mut().zip(&self.row) {
-            let [low, high] = &mut extremes.range;
+        for (seen, value) in self.seen.iter_mut().zip(&self.row) {
+            let [low, high] = &mut seen.range;
             (*low, *high) = (low.min(*value), high.max(*value));
+            seen.history.iter_mut().for_each(|history| history.push(*value));
         }
         Ok(())
     }
