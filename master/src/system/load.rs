@@ -103,8 +103,8 @@ impl Opened {
         let (name, path) = &self.bridge;
         let bridge = Bridge::open(path, name, isolated.bridge.as_ref(), self.job.end, &none)?;
         let Settings { coupling, force_scale, .. } = &self.settings;
-        let parts = vec![(bridge, self.assigned.clone())];
-        couple(train_track, parts, coupling, *force_scale, self.job.step, trusted, self.warnings.clone())
+        let parts = vec![(Bridge { trusted, ..bridge }, self.assigned.clone())];
+        couple(train_track, parts, coupling, *force_scale, self.job.step, self.warnings.clone())
     }
 }
 
