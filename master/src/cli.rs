@@ -92,6 +92,12 @@ The output folder gets
   results.svg      deck, cars and wheels over time
   *.fmu            the two FMUs that were run
 
+A bridge of somebody else's (docs/guide/bridges.md):
+  ttb check THEIRS.fmu                         does it keep what FMI promises?
+  ttb inspect --map THEIRS.fmu > map.json      a map of its variables onto ours: names, signs, units, places
+  ttb run scenario.json --bridge THEIRS.fmu --map map.json
+Trial steps before the run find wrong signs and units, and states that do not come back.
+
 A foreign FMU that crashes takes the program and its results along, unless it is isolated:
   ttb run scenario.json --bridge THEIRS.fmu --isolate --timeout 10";
 

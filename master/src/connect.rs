@@ -53,6 +53,8 @@ pub struct Bridge {
     pub another: Box<dyn Fn() -> Result<FmuInstance, Error> + std::marker::Send>,
     /// Whether there may be several in this process.
     pub several: bool,
+    /// Whether to save and restore its state, if it can.
+    pub trusted: bool,
 }
 
 impl Bridge {
@@ -69,7 +71,7 @@ impl Bridge {
         let another = move || instantiate(&isolate::open(&path, isolation.as_ref())?, &name, end, &parameters);
         let instance = another()?;
         let several = apart || !instance.description().co_simulation.can_be_instantiated_only_once_per_process;
-        Ok(Self { instance, another: Box::new(another), several })
+        Ok(Self { instance, another: Box::new(another), several, trusted: true })
     }
 }
 
@@ -114,7 +116,8 @@ pub fn connect(
     let mut offered = Vec::new();
     for (k, (given, map)) in bridges.iter().zip(&maps).enumerate() {
         let name = if bridges.len() == 1 { "Bridge".to_string() } else { format!("Bridge{}", k + 1) };
-        offered.push(Bridge::open(given.path, &name, isolated.bridge.as_ref(), end, &map.parameters)?);
+        let bridge = Bridge::open(given.path, &name, isolated.bridge.as_ref(), end, &map.parameters)?;
+        offered.push(Bridge { trusted: trusted && map.roll_back, ..bridge });
     }
     let assigned = match &offered[..] {
         [bridge] if bridges[0].map.is_none() => {
@@ -134,15 +137,7 @@ pub fn connect(
         }
     };
     let parts = offered.into_iter().zip(assigned).collect();
-    couple(
-        train_track,
-        parts,
-        checked.settings(),
-        checked.scenario.coupling.send,
-        checked.steps().step,
-        trusted,
-        warnings,
-    )
+    couple(train_track, parts, checked.settings(), checked.scenario.coupling.send, checked.steps().step, warnings)
 }
 
 /// Everything that has the same name on both sides, in its declared units.
@@ -211,7 +206,6 @@ pub fn couple(
     settings: Settings,
     send: Send,
     h: f64,
-    trusted: bool,
     mut warnings: Vec<String>,
 ) -> Result<Connected, Error> {
     if settings.max_iterations > 1 && !train_track.can_restore() {
@@ -222,18 +216,23 @@ pub fn couple(
         )));
     }
     let all_several = bridges.iter().all(|(bridge, _)| bridge.several);
-    let rolls_back = trusted && bridges.iter().all(|(bridge, _)| bridge.instance.can_restore());
+    let rolls_back = bridges.iter().all(|(bridge, _)| bridge.trusted && bridge.instance.can_restore());
     let mut forces_out = Ends::default();
     let (mut displacements, mut velocities) = (Ends::default(), Ends::default());
     let (mut sides, mut parts) = (Vec::new(), Vec::new());
     for (bridge, assigned) in bridges {
-        let Bridge { instance, another, several } = bridge;
+        let Bridge { instance, another, several, trusted } = bridge;
         let name = instance.name().to_string();
         if settings.max_iterations > 1 && !(trusted && instance.can_restore()) {
             let cannot =
                 if trusted { "cannot save and restore its state (canGetAndSetFMUstate)" } else { "is not rolled back" };
             warnings.push(format!(
                 "{name} {cannot}: steps are taken once, without iteration; the summary estimates the error"
+            ));
+        }
+        if !rolls_back && !several {
+            warnings.push(format!(
+                "{name} may exist only once in a process: nothing of it is tried before the run; --isolate makes it possible"
             ));
         }
         if send == Send::Rate && !instance.can_interpolate() {

@@ -84,7 +84,9 @@ impl From<IterationError> for Error {
     fn from(error: IterationError) -> Self {
         match error {
             IterationError::Subsystem(failure) => Self::Fmu(failure.to_string()),
-            lie @ IterationError::NoReturn { .. } => Self::Fmu(format!("{lie}; coupling.method explicit does without")),
+            lie @ IterationError::NoReturn { .. } => {
+                Self::Fmu(format!("{lie}; \"roll_back\": false in the bridge's map (--map) does without"))
+            }
             other => Self::NotConverged(other),
         }
     }

@@ -56,6 +56,9 @@ pub struct Map {
     /// Our supports that stand on this bridge, first and last, from 1.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub supports: Option<[usize; 2]>,
+    /// Whether to save and restore its state, if it can.
+    #[serde(default = "yes", skip_serializing_if = "is_yes")]
+    pub roll_back: bool,
     /// Parameters and start values by name, in the FMU's own units.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub parameters: BTreeMap<String, Value>,
@@ -144,6 +147,14 @@ pub enum Value {
     Text(String),
 }
 
+fn yes() -> bool {
+    true
+}
+
+fn is_yes(value: &bool) -> bool {
+    *value
+}
+
 fn one() -> i64 {
     1
 }
@@ -176,6 +187,7 @@ impl Default for Map {
             interpolation: Interpolation::default(),
             bearings: Vec::new(),
             supports: None,
+            roll_back: true,
             parameters: BTreeMap::new(),
             path: PathBuf::new(),
         }

@@ -135,6 +135,14 @@ def test_without_roll_back_a_bound_or_a_refusal(ttb, reference, tmp_path, mass, 
         assert "is not stable: ρ = " in said and summary["reached_s"] == 0
 
 
+def test_roll_back_can_be_declined(ttb, reference, tmp_path):
+    """For FMUs whose states fail late."""
+    scenario, expected, _ = reference(29720, 1e-3)
+    found, summary, said = coupled(ttb, scenario, beam(29720).write(tmp_path), {**MAP, "roll_back": False}, tmp_path)
+    assert "is not rolled back" in said and summary["coupling"]["method"] == "explicit"
+    assert 0 < errors(found, expected)[1] < summary["coupling"]["error_estimate"]
+
+
 def test_parameters_make_another_bridge_of_it(ttb, reference, tmp_path):
     """The FMU of a heavy deck, told to be a light one."""
     scenario, expected, _ = reference(1000, 1e-3)

@@ -140,7 +140,8 @@ fn no_method_and_no_adapter_allocates_in_a_step() {
             let stations = Stations::new(&even(400), &[], &even(500), Shape::Cubic).expect("stations");
             let mut line = Line::new(400, 0.01, 0.0);
             line.rolls_back = rolls_back;
-            (Adapted::new(line, 400, Some(stations), false, 1e-3), 500)
+            // These masses have no velocity to speak of: steps that are not iterated would follow its noise.
+            (Adapted::new(line, 400, Some(stations), !rolls_back, 1e-3), 500)
         };
         let method = if rolls_back { Method::IqnIls } else { Method::Explicit };
         run(method, 1000, &mut Joined::new(vec![part(), part()]), "two bridges of 400 stations without velocities");

@@ -106,8 +106,8 @@ impl Opened {
         let bridge = Bridge::open(path, name, isolated.bridge.as_ref(), self.job.end, &none)?;
         let Settings { coupling, force_scale, substeps, .. } = &self.settings;
         let settings = coupling.settings(*force_scale, *substeps);
-        let parts = vec![(bridge, self.assigned.clone())];
-        couple(train_track, parts, settings, coupling.send, self.job.step, trusted, self.warnings.clone())
+        let parts = vec![(Bridge { trusted, ..bridge }, self.assigned.clone())];
+        couple(train_track, parts, settings, coupling.send, self.job.step, self.warnings.clone())
     }
 }
 
