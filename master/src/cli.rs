@@ -77,7 +77,11 @@ pub enum Command {
     },
     /// What `ttb run --isolate` starts to run an FMU in
     #[command(hide = true)]
-    Host,
+    Host {
+        /// Load this library first
+        #[arg(long)]
+        preload: Vec<PathBuf>,
+    },
 }
 
 const RUN_HELP: &str = "\
@@ -87,6 +91,12 @@ The output folder gets
   summary.json     peaks with place and time, contact forces, iterations, timing, versions
   results.svg      deck, cars and wheels over time
   *.fmu            the two FMUs that were run
+
+A bridge of somebody else's (docs/guide/bridges.md):
+  ttb check THEIRS.fmu                         does it keep what FMI promises?
+  ttb inspect --map THEIRS.fmu > map.json      a map of its variables onto ours: names, signs, units, places
+  ttb run scenario.json --bridge THEIRS.fmu --map map.json
+Trial steps before the run find wrong signs and units, and states that do not come back.
 
 A foreign FMU that crashes takes the program and its results along, unless it is isolated:
   ttb run scenario.json --bridge THEIRS.fmu --isolate --timeout 10";
@@ -117,12 +127,14 @@ pub struct Run {
     /// Use this FMU as the train–track subsystem instead of building one
     #[arg(long, value_name = "FMU")]
     pub train_track: Option<PathBuf>,
-    /// Use this FMU as the bridge instead of building one
+    /// Use this FMU as the bridge instead of building one; several times for several bridges in track order
     #[arg(long, value_name = "FMU")]
-    pub bridge: Option<PathBuf>,
-    /// How the given bridge's variables belong to ours; `ttb inspect FMU --map` proposes one
+    pub bridge: Vec<PathBuf>,
+    /// How the given bridge's variables belong to ours, where they stand, parameters; `ttb inspect FMU --map` proposes one
+    ///
+    /// With several bridges: one map for all, or one for each in the same order.
     #[arg(long, value_name = "FILE", requires = "bridge")]
-    pub map: Option<PathBuf>,
+    pub map: Vec<PathBuf>,
     /// Run FMUs in processes of their own: should one crash or hang, the results so far are kept
     ///
     /// Without value: the FMUs given by --bridge and --train-track, or both of an .ssp file. What such an FMU prints goes
@@ -132,6 +144,12 @@ pub struct Run {
     /// Longest time a call of an isolated FMU may take [default: 60]
     #[arg(long, value_name = "SECONDS", requires = "isolate", allow_negative_numbers = true)]
     pub timeout: Option<f64>,
+    /// Load this library before the FMUs, e.g. libpython3.11.so.1.0 for those made with PythonFMU
+    #[arg(long, value_name = "LIB")]
+    pub preload: Vec<PathBuf>,
+    /// Skip the trial steps before the run that test roll-back, signs and units of the FMUs
+    #[arg(long)]
+    pub no_probe: bool,
     /// No progress, no summary
     #[arg(short, long)]
     pub quiet: bool,
@@ -167,6 +185,9 @@ pub struct Check {
     /// Seconds a single call may take
     #[arg(long, default_value_t = 30.0, value_name = "SECONDS")]
     pub timeout: f64,
+    /// Load this library before the FMU, e.g. libpython3.11.so.1.0 for one made with PythonFMU
+    #[arg(long, value_name = "LIB")]
+    pub preload: Vec<PathBuf>,
     /// Make one of the checks in this process
     #[arg(long, hide = true)]
     pub worker: Option<String>,

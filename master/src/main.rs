@@ -8,6 +8,7 @@ macro_rules! say {
     }};
 }
 
+mod assign;
 mod auto;
 mod build;
 mod check;
@@ -23,13 +24,16 @@ mod inspect_bridge;
 mod isolate;
 mod job;
 mod map;
+mod parameters;
 mod peaks;
 mod picture;
 mod plot;
+mod preload;
 mod probe;
 mod record;
 mod run;
 mod series;
+mod stretch;
 mod summary;
 mod system;
 
@@ -77,7 +81,10 @@ fn execute(command: Command) -> Result<(), Error> {
             Ok(())
         }
         Command::Generate(arguments) => generate::generate(&arguments),
-        Command::Host => ttb_fmi2::isolate::host().map_err(Error::Input),
+        Command::Host { preload } => {
+            preload::load(&preload)?;
+            ttb_fmi2::isolate::host().map_err(Error::Input)
+        }
         Command::InspectBridge { file } => inspect_bridge::inspect(&file),
         Command::Schema { bridge } => {
             say!("{:#}", if bridge { ttb_scenario::model_schema() } else { ttb_scenario::schema() });

@@ -48,7 +48,7 @@ impl Plot {
         let mut curves = Vec::new();
         for (panel, Panel { begin, end, .. }) in PANELS.iter().enumerate() {
             let matches: Vec<usize> = (0..recorder.columns.len())
-                .filter(|i| recorder.columns[*i].name.starts_with(begin) && recorder.columns[*i].name.ends_with(end))
+                .filter(|i| recorder.columns[*i].name.contains(begin) && recorder.columns[*i].name.ends_with(end))
                 .collect();
             let count = matches.len().min(CURVES);
             let chosen = (0..count).map(|i| matches[if count > 1 { i * (matches.len() - 1) / (count - 1) } else { 0 }]);
