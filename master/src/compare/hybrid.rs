@@ -56,12 +56,17 @@ pub fn run(bench: &Bench, row: &Planned) -> Result<Ran, Error> {
     Ok(ran)
 }
 
+/// Sub-steps of a multi-time-step row.
+pub fn sub_steps(checked: &Checked) -> usize {
+    let own = checked.steps().substeps;
+    if own > 1 { own } else { SUB_STEPS }
+}
+
 /// The scenario at a row's step, a multi-time-step row with sub-steps of train and track.
 fn with_step(checked: &Checked, row: &Planned) -> Checked {
     let mut checked = checked.clone();
-    let own = checked.steps().substeps;
-    let several = if own > 1 { own } else { SUB_STEPS };
-    checked.set_steps(Steps { step: row.step, substeps: if row.method == Method::Multi { several } else { 1 } });
+    let substeps = if row.method == Method::Multi { sub_steps(&checked) } else { 1 };
+    checked.set_steps(Steps { step: row.step, substeps });
     checked
 }
 

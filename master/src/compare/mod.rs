@@ -70,9 +70,10 @@ pub fn compare(arguments: &Compare) -> Result<(), Error> {
             Err(error) => return Err(error),
         }
     }
+    figures::draw(&done, truth.as_ref(), &bench.watched, folder)?;
+    done.extend(truth.clone());
     let table = table::Table::new(&done, truth.as_ref(), &bench.watched);
     table.write(&checked, folder)?;
-    figures::draw(&done, truth.as_ref(), &bench.watched, folder)?;
     table.print(&checked, folder);
     if interrupted { Err(Error::Interrupted) } else { Ok(()) }
 }

@@ -3,7 +3,8 @@
 use ttb_reference::{Method as Reference, Stepper};
 
 use crate::cli::{Compare, Compared};
-use crate::compare::{Bench, reference::Prepared};
+use crate::compare::reference::Prepared;
+use crate::compare::{Bench, hybrid};
 use crate::error::Error;
 
 /// How a row is computed.
@@ -77,6 +78,12 @@ pub fn plan(arguments: &Compare, bench: &Bench, prepared: &mut Prepared) -> Resu
     }
     if let Some(step) = loose.filter(|step| *step < own && methods.contains(&Method::Hybrid)) {
         rows.push(Planned::new(Method::Hybrid, step));
+    }
+    // What sub-steps are to be measured with: all in steps as short as theirs. The reference run may be that already.
+    let short = own / hybrid::sub_steps(bench.checked) as f64;
+    let known = arguments.reference.fine(own).is_some_and(|fine| (fine / short - 1.0).abs() < 1e-9);
+    if methods.contains(&Method::Multi) && methods.contains(&Method::Hybrid) && !known {
+        rows.push(Planned::new(Method::Hybrid, short));
     }
     Ok(rows)
 }
