@@ -112,7 +112,7 @@ impl Coupling {
         let info = self.iterate(&mut sides, Mode::Equilibrium, self.settings.max_iterations.max(STATIC_TRIALS))?;
         self.strategy.end_static();
         if info.outcome == Outcome::IterationLimit && self.settings.on_failure != OnFailure::Accept {
-            return Err(IterationError::NotConverged { t, h: 0.0, info, rho: None });
+            return Err(IterationError::NotConverged { t, h: 0.0, info: info.into(), rho: None });
         }
         sides.train_track.exit_initialization()?;
         sides.bridge.exit_initialization()?;
@@ -150,7 +150,7 @@ impl Coupling {
         self.strategy.begin_step(sides.h);
         let info = self.iterate(sides, Mode::OnePass, 1)?;
         if info.outcome != Outcome::Converged && self.settings.on_failure != OnFailure::Accept {
-            return Err(IterationError::NotConverged { t: sides.t, h: sides.h, info, rho: None });
+            return Err(IterationError::NotConverged { t: sides.t, h: sides.h, info: info.into(), rho: None });
         }
         let work = self.account(sides)?;
         self.forces.accept(&self.answer, sides.h);
@@ -174,7 +174,7 @@ impl Coupling {
             self.forces.predict(self.settings.predictor, h, &mut self.lambda);
             let rho = self.contraction(sides).ok();
             sides.restore()?;
-            return Err(IterationError::NotConverged { t, h, info, rho });
+            return Err(IterationError::NotConverged { t, h, info: info.into(), rho });
         }
         sides.restore()?;
         let first = self.step_or_halve(&mut sides.over(t, 0.5 * h), depth + 1)?;

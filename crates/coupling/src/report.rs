@@ -88,7 +88,7 @@ pub enum IterationError {
         /// Its size, s; 0 in static equilibrium.
         h: f64,
         /// The last trial.
-        info: StepInfo,
+        info: Box<StepInfo>,
         /// ρ of the fixed point there, where it could be measured.
         rho: Option<f64>,
     },
