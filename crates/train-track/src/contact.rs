@@ -73,7 +73,13 @@ pub struct Contacts {
     matrix: Vec<f64>,
     /// First and one past the last axle that each axle is coupled with.
     envelope: Vec<(usize, usize)>,
+    /// First axle that each axle is coupled with by enough for Newton's matrix.
+    near: Vec<usize>,
 }
+
+/// Coupling of two axles, relative to the largest compliance, that Newton's matrix can do without: what is left out makes a
+/// correction wrong by as much, and the last one is below [`CORRECTION`]. The residual leaves out nothing.
+const FAR: f64 = 1e-9;
 
 /// Newton iterations at most; two to four are usual.
 const ITERATIONS: usize = 50;
@@ -94,6 +100,7 @@ impl Contacts {
             trial: zeros(),
             matrix: vec![0.0; n * n],
             envelope: vec![(0, n); n],
+            near: vec![0; n],
         }
     }
 
@@ -121,13 +128,13 @@ impl Contacts {
                 *root = law.force(*delta).1.sqrt();
             }
             for i in 0..n {
-                for j in self.envelope[i].0..=i {
+                for j in self.near[i]..=i {
                     self.matrix[i * n + j] = self.root[i] * compliance[i * n + j] * self.root[j];
                 }
                 self.matrix[i * n + i] += 1.0;
                 self.y[i] = -self.root[i] * self.g[i];
             }
-            solve_positive_definite(&mut self.matrix, &self.envelope, &mut self.y);
+            solve_positive_definite(&mut self.matrix, &self.near, &mut self.y);
             self.y.iter_mut().zip(&self.root).for_each(|(y, root)| *y *= root);
             let (mut largest, mut correction) = (1e-6_f64, 0.0_f64);
             for i in 0..n {
@@ -162,10 +169,12 @@ impl Contacts {
     /// Distant axles do not feel each other: the nonzero part of every row of Y.
     fn find_envelope(&mut self, compliance: &[f64]) {
         let n = self.laws.len();
-        for (i, (first, end)) in self.envelope.iter_mut().enumerate() {
+        let negligible = FAR * (0..n).map(|i| compliance[i * n + i]).fold(0.0, f64::max);
+        for (i, ((first, end), near)) in self.envelope.iter_mut().zip(&mut self.near).enumerate() {
             let row = &compliance[i * n..(i + 1) * n];
             *first = row[..i].iter().position(|y| *y != 0.0).unwrap_or(i);
             *end = row.iter().rposition(|y| *y != 0.0).map_or(n, |last| last + 1).max(i + 1);
+            *near = row[..i].iter().position(|y| y.abs() > negligible).unwrap_or(i);
         }
     }
 
@@ -188,15 +197,15 @@ impl Contacts {
     }
 }
 
-/// b ← A⁻¹ b by Cholesky within the envelope; the lower triangle of A (by rows) is overwritten. A is I plus a positive
-/// semidefinite matrix.
-fn solve_positive_definite(a: &mut [f64], envelope: &[(usize, usize)], b: &mut [f64]) {
+/// b ← A⁻¹ b by Cholesky; row i of A's lower triangle, which is overwritten, begins with column `begin[i]`. A is I plus a
+/// positive semidefinite matrix.
+fn solve_positive_definite(a: &mut [f64], begin: &[usize], b: &mut [f64]) {
     let n = b.len();
     for i in 0..n {
-        let first = envelope[i].0;
+        let first = begin[i];
         let (above, row) = a.split_at_mut(i * n);
         for j in first..i {
-            let from = first.max(envelope[j].0);
+            let from = first.max(begin[j]);
             let pivot_row = &above[j * n..j * n + j + 1];
             let sum: f64 = row[from..j].iter().zip(&pivot_row[from..]).map(|(x, y)| x * y).sum();
             row[j] = (row[j] - sum) * pivot_row[j];
@@ -209,7 +218,7 @@ fn solve_positive_definite(a: &mut [f64], envelope: &[(usize, usize)], b: &mut [
     }
     for i in (0..n).rev() {
         b[i] *= a[i * n + i];
-        let (bi, first) = (b[i], envelope[i].0);
+        let (bi, first) = (b[i], begin[i]);
         b[first..i].iter_mut().zip(&a[i * n + first..i * n + i]).for_each(|(b, l)| *b -= l * bi);
     }
 }

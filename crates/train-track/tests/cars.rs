@@ -6,7 +6,7 @@ use common::{spec, started, value};
 use ttb_coupling::{Instance, Model};
 use ttb_record::Table;
 use ttb_scenario::spec::Profile;
-use ttb_scenario::types::{Ramp, RampShape, Wave};
+use ttb_scenario::types::{RailPoint, Ramp, RampShape, Wave};
 use ttb_train_track::TrainTrack;
 use ttb_train_track::car::Car;
 
@@ -48,7 +48,14 @@ fn static_axle_loads_are_the_published_ones() {
 
 /// A rough rail under a running car on a moving deck.
 fn rough() -> Instance<TrainTrack> {
+    rough_in(1)
+}
+
+/// The same in so many sub-steps a step of 1 ms, and with a monitored point of the rail.
+fn rough_in(substeps: usize) -> Instance<TrainTrack> {
     let mut spec = spec();
+    spec.substeps = substeps;
+    spec.rail_points = vec![RailPoint { name: "p".into(), x: 33.0 }];
     let wave = |amplitude, wavelength| Wave { amplitude, wavelength, phase: 0.3 };
     let ramp = Some(Ramp { start: 30.0, length: 8.0, shape: RampShape::Quintic });
     spec.irregularity = Profile::Waves { waves: vec![wave(1e-3, 9.0), wave(2e-4, 3.0)], origin: 30.0, ramp };
@@ -126,7 +133,11 @@ fn the_track_follows_a_manufactured_motion_with_second_order() {
 
 #[test]
 fn a_restored_state_repeats_the_step_bit_for_bit_also_from_bytes_and_in_another_instance() {
-    let (mut a, mut b) = (rough(), rough());
+    [1, 4].into_iter().for_each(repeats);
+}
+
+fn repeats(substeps: usize) {
+    let (mut a, mut b) = (rough_in(substeps), rough_in(substeps));
     (0..40).for_each(|n| advance(&mut a, n, 1e-3));
     let saved = a.save();
     let bytes = a.to_bytes(&saved);
@@ -144,6 +155,47 @@ fn a_restored_state_repeats_the_step_bit_for_bit_also_from_bytes_and_in_another_
     b.restore(&read).unwrap();
     assert_eq!(run(&mut b), first);
     assert!(b.from_bytes(&bytes[..bytes.len() - 8]).is_err());
+}
+
+/// One macro step of m sub-steps is m steps of their size: mean force, work and peak of the one are those of the others.
+#[test]
+fn sub_steps_are_steps_and_mean_work_and_peak_are_gathered_over_them() {
+    let (mut whole, mut parts, m, h) = (rough_in(5), rough_in(5), 5, 1e-3);
+    let (n, supports) = (10, 30);
+    (0..n).for_each(|k| advance(&mut whole, k, h));
+    (0..n).for_each(|k| advance(&mut parts, k, h));
+    let names: Vec<String> = (1..=supports).map(|i| format!("support[{i}].force")).collect();
+    let forces = |instance: &mut Instance<TrainTrack>| names.iter().map(|n| value(instance, n)).collect::<Vec<_>>();
+    let (t, velocity) = (n as f64 * h, |t: f64| 0.02 * (20.0 * t).sin());
+    let rates = [(deck(t + h) - deck(t)) / h, (velocity(t + h) - velocity(t)) / h];
+    let references: Vec<u32> = (0..2 * supports as u32).collect();
+    let (mut mean, mut work, mut peak) = (vec![0.0; supports], 0.0, 0.0_f64);
+    let mut before = forces(&mut parts);
+    for i in 0..m {
+        let tau = i as f64 * h / f64::from(m);
+        let fill = |a: f64, b: f64| [vec![a; supports], vec![b; supports]].concat();
+        parts.set(&references, &fill(deck(t) + tau * rates[0], velocity(t) + tau * rates[1])).unwrap();
+        parts.set_rates(&references, &fill(rates[0], rates[1])).unwrap();
+        parts.step(t + tau, h / f64::from(m)).unwrap();
+        let after = forces(&mut parts);
+        for (s, (a, b)) in before.iter().zip(&after).enumerate() {
+            mean[s] += 0.5 * (a + b) / f64::from(m);
+            work += 0.5 * (a + b) * rates[0] * h / f64::from(m);
+        }
+        let a = value(&mut parts, "rail[p].acceleration");
+        peak = if a.abs() > peak.abs() { a } else { peak };
+        before = after;
+    }
+    advance(&mut whole, n, h);
+    let near = |name: &str, expected: f64, found: f64| {
+        assert!((found - expected).abs() <= 1e-9 * expected.abs().max(1e-3), "{name}: {found}, expected {expected}");
+    };
+    for (s, mean) in mean.iter().enumerate() {
+        near("mean", *mean, value(&mut whole, &format!("support[{}].mean_force", s + 1)));
+    }
+    near("work", work, value(&mut whole, "deck_work"));
+    near("peak", peak, value(&mut whole, "rail[p].peak_acceleration"));
+    assert!(work.abs() > 1e-3 && peak.abs() > 1e-2, "{work} J, {peak} m/s2");
 }
 
 #[test]
