@@ -45,11 +45,11 @@ impl Lcm {
         for n in 1..=MOST {
             trial.press(forces);
             let (mut missing, mut size) = (0.0, 0.0);
-            for axle in 0..forces.len() {
+            for ((axle, answer), force) in self.answer.iter_mut().enumerate().zip(&*forces) {
                 let s = trial.car(wheel(axle)) - trial.rail(axle) - trial.wheels.roughness[axle];
-                self.answer[axle] = trial.wheels.force(axle, s).0;
-                missing += (self.answer[axle] - forces[axle]).powi(2);
-                size += self.answer[axle].powi(2);
+                *answer = trial.wheels.force(axle, s).0;
+                missing += (*answer - force).powi(2);
+                size += answer.powi(2);
             }
             let residual = missing.sqrt() / size.sqrt().max(self.axle_load);
             let lost = residual > 1e3 * *first.get_or_insert(residual.max(1e-3));
