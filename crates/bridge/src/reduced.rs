@@ -61,10 +61,8 @@ impl System for Reduced {
             rates.iter().zip(&self.omega2).map(|(c, w2)| 1.0 / (law.stiffness * w2 + law.mass * (a0 + a1 * c)));
         let inverse: Vec<f64> = inverse.collect();
         // S pays where it is smaller than RΦ.
-        let compliance = match &**rows {
-            Rows::Modal(shapes) if supports < inverse.len() => Some(shapes.weighted_gram(&inverse, supports)),
-            _ => None,
-        };
+        let pays = supports < inverse.len();
+        let compliance = if pays { rows.compliance(&inverse, supports) } else { None };
         Ok(Arc::new(ReducedStep { newmark, mass: law.mass, inverse, rates, rows: Arc::clone(rows), compliance }))
     }
 }
@@ -93,14 +91,6 @@ impl ReducedStep {
         let (velocity, acceleration) = self.newmark.finish(end, u, v, a);
         [end, velocity, acceleration, v]
     }
-
-    /// RΦ and S, where repetitions go through S.
-    fn shapes(&self) -> Option<(&Dense, &Dense)> {
-        match (&*self.rows, &self.compliance) {
-            (Rows::Modal(shapes), Some(compliance)) => Some((shapes, compliance)),
-            _ => None,
-        }
-    }
 }
 
 /// What [`Base`] says of the rows, all zero, in the order of [`ReducedStep::free`].
@@ -122,9 +112,9 @@ impl Step for ReducedStep {
         let Base { motion: Motion { u, v, a }, load, free, before, .. } = base;
         load.resize(u.len(), 0.0);
         load.iter_mut().enumerate().for_each(|(j, p)| *p = self.owed(j, u[j], v[j], a[j]));
-        if let Some((shapes, compliance)) = self.shapes() {
+        if let Some(compliance) = &self.compliance {
             let weights = |j: usize, _| self.free(j, load[j], u[j], v[j], a[j]);
-            shapes.fold(&[], weights, unseen(free, before, shapes.columns(), compliance.columns()));
+            self.rows.fold(&[], weights, unseen(free, before, compliance.rows(), compliance.columns()));
         }
     }
 
@@ -139,7 +129,7 @@ impl Step for ReducedStep {
     }
 
     fn proceed(&self, base: &Base, forces: &[f64], next: &mut Base, work: &mut Work) {
-        let Some((shapes, compliance)) = self.shapes() else {
+        let Some(compliance) = &self.compliance else {
             self.finish(base, forces, &mut next.motion, work);
             return self.begin(next, work);
         };
@@ -152,6 +142,6 @@ impl Step for ReducedStep {
             load[j] = self.owed(j, u[j], v[j], a[j]);
             self.free(j, load[j], u[j], v[j], a[j])
         };
-        shapes.fold(forces, weights, unseen(free, before, shapes.columns(), compliance.columns()));
+        self.rows.fold(forces, weights, unseen(free, before, compliance.rows(), compliance.columns()));
     }
 }

@@ -106,7 +106,7 @@ pub fn build(
         let basis = reduce(&answers, &krylov, &ritz, rows, NEGLIGIBLE);
         let modes = basis.modes;
         let pseudo_modes = basis.omega2.len() - modes;
-        let rows = Rows::Modal(basis.shapes);
+        let rows = Rows::Single(basis.shapes.single());
         let system = Arc::new(Reduced::new(basis.omega2));
         let shared = Arc::new(rows);
         let stepper = Arc::clone(&system).prepare(law, newmark, &shared, supports).map_err(failed)?;

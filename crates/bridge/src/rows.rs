@@ -18,6 +18,8 @@ pub enum Rows {
     },
     /// Coordinate by coordinate: row j is R φ_j.
     Modal(Dense),
+    /// The same in single precision: of a reduced model, whose error is greater.
+    Single(Dense<f32>),
 }
 
 impl Rows {
@@ -38,6 +40,7 @@ impl Rows {
         match self {
             Self::Sparse { starts, .. } => starts.len() - 1,
             Self::Modal(shapes) => shapes.columns(),
+            Self::Single(shapes) => shapes.columns(),
         }
     }
 
@@ -50,7 +53,7 @@ impl Rows {
     pub fn columns(&self, i: usize) -> &[u32] {
         match self {
             Self::Sparse { starts, columns, .. } => &columns[starts[i] as usize..starts[i + 1] as usize],
-            Self::Modal(_) => &[],
+            Self::Modal(_) | Self::Single(_) => &[],
         }
     }
 
@@ -58,7 +61,7 @@ impl Rows {
     pub fn weights(&self, i: usize) -> &[f64] {
         match self {
             Self::Sparse { starts, weights, .. } => &weights[starts[i] as usize..starts[i + 1] as usize],
-            Self::Modal(_) => &[],
+            Self::Modal(_) | Self::Single(_) => &[],
         }
     }
 
@@ -70,6 +73,7 @@ impl Rows {
                 row.map(|(&column, weight)| weight * u[column as usize]).sum()
             }
             Self::Modal(shapes) => u.iter().enumerate().map(|(j, u)| shapes.row(j)[i] * u).sum(),
+            Self::Single(shapes) => u.iter().enumerate().map(|(j, u)| f64::from(shapes.row(j)[i]) * u).sum(),
         }
     }
 
@@ -77,9 +81,9 @@ impl Rows {
     pub fn multiply(&self, u: &[f64], r: &mut [f64]) {
         match self {
             Self::Sparse { .. } => r.iter_mut().enumerate().for_each(|(i, r)| *r = self.dot(i, u)),
-            Self::Modal(shapes) => {
+            Self::Modal(_) | Self::Single(_) => {
                 r.fill(0.0);
-                shapes.add_transposed(u, r);
+                self.fold(&[], |j, _| [u[j]], [r]);
             }
         }
     }
@@ -93,14 +97,31 @@ impl Rows {
                     row.for_each(|(&column, weight)| load[column as usize] += weight * f);
                 }
             }
-            Self::Modal(shapes) => shapes.fold(
-                f,
-                |j, p| {
+            Self::Modal(_) | Self::Single(_) => {
+                let add = |j: usize, p: f64| {
                     load[j] += p;
                     []
-                },
-                [],
-            ),
+                };
+                self.fold(f, add, []);
+            }
+        }
+    }
+
+    /// [`Dense::fold`] over the coordinates; nothing for sparse rows.
+    pub fn fold<const N: usize>(&self, x: &[f64], weights: impl FnMut(usize, f64) -> [f64; N], y: [&mut [f64]; N]) {
+        match self {
+            Self::Sparse { .. } => {}
+            Self::Modal(shapes) => shapes.fold(x, weights, y),
+            Self::Single(shapes) => shapes.fold(x, weights, y),
+        }
+    }
+
+    /// R Φ diag(w) (BΦ)ᵀ, B the first `supports` rows; none for sparse rows.
+    pub fn compliance(&self, w: &[f64], supports: usize) -> Option<Dense> {
+        match self {
+            Self::Sparse { .. } => None,
+            Self::Modal(shapes) => Some(shapes.weighted_gram(w, supports)),
+            Self::Single(shapes) => Some(shapes.weighted_gram(w, supports)),
         }
     }
 

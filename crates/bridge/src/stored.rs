@@ -20,7 +20,7 @@ use crate::system::System;
 /// Name of the file.
 pub const FILE: &str = "bridge.bin";
 /// Changes when the layout does.
-const VERSION: u32 = 2;
+const VERSION: u32 = 3;
 
 /// The file's content (postcard's format).
 #[derive(Serialize, Deserialize)]
@@ -44,7 +44,12 @@ pub struct Stored {
 #[derive(Serialize, Deserialize)]
 enum Equations {
     Full { raw: Raw, modes: Vec<Vec<f64>>, starts: Vec<u32>, columns: Vec<u32>, weights: Vec<f64> },
-    Reduced { omega2: Vec<f64>, shapes: Vec<f64> },
+    Modes { omega2: Vec<f64>, shapes: Dense },
+    Reduced { omega2: Vec<f64>, shapes: Dense<f32> },
+}
+
+impl Equations {
+    const NONE: Self = Self::Modes { omega2: Vec::new(), shapes: Dense::EMPTY };
 }
 
 /// What a file gives back.
@@ -93,10 +98,13 @@ impl Stored {
                 weights: weights.clone(),
             },
             (Source::Reduced { omega2 }, Rows::Modal(shapes)) => {
-                Equations::Reduced { omega2: omega2.clone(), shapes: shapes.data().to_vec() }
+                Equations::Modes { omega2: omega2.clone(), shapes: shapes.clone() }
+            }
+            (Source::Reduced { omega2 }, Rows::Single(shapes)) => {
+                Equations::Reduced { omega2: omega2.clone(), shapes: shapes.clone() }
             }
             // Rows are sparse over degrees of freedom, modal over coordinates.
-            _ => Equations::Reduced { omega2: Vec::new(), shapes: Vec::new() },
+            _ => Equations::NONE,
         };
         let (omega2, points, accuracy) = (omega2.to_vec(), points.to_vec(), accuracy.cloned());
         Self { version: VERSION, ndof, mass, omega2, supports, points, accuracy, equations }
@@ -131,9 +139,7 @@ impl Stored {
     /// # Errors
     /// Numbers that do not fit together.
     pub fn system(&mut self) -> Result<Restored, ModelError> {
-        let damaged = |why: &str| ModelError(format!("{FILE} is damaged: {why}"));
-        let none = Equations::Reduced { omega2: Vec::new(), shapes: Vec::new() };
-        let (system, rows, pencil): (Arc<dyn System>, _, _) = match std::mem::replace(&mut self.equations, none) {
+        let restored = match std::mem::replace(&mut self.equations, Equations::NONE) {
             Equations::Full { raw, modes, starts, columns, weights } => {
                 let pencil = Arc::new(Pencil::from_raw(raw).map_err(|e| damaged(&e.to_string()))?);
                 let n = pencil.ndof();
@@ -146,20 +152,34 @@ impl Stored {
                 let omega2 = self.omega2[..modes.len().min(self.omega2.len())].to_vec();
                 let modes = Modes { omega2, shapes: modes };
                 let rows = Rows::Sparse { starts, columns, weights };
-                (Arc::new(Full::new(Arc::clone(&pencil), None, modes)), rows, Some(pencil))
+                let system = Arc::new(Full::new(Arc::clone(&pencil), None, modes));
+                Restored { system, rows, pencil: Some(pencil) }
             }
-            Equations::Reduced { omega2, shapes } => {
-                if omega2.is_empty() || shapes.len() % omega2.len() != 0 {
-                    return Err(damaged("rows do not fit the coordinates"));
-                }
-                let rows = Rows::Modal(Dense::new(shapes.len() / omega2.len(), shapes));
-                (Arc::new(Reduced::new(omega2)), rows, None)
-            }
+            Equations::Modes { omega2, shapes } => modal(omega2, Rows::Modal(shapes))?,
+            Equations::Reduced { omega2, shapes } => modal(omega2, Rows::Single(shapes))?,
         };
         let seen = self.points.iter().flat_map(|point| [Some(point.motion), point.moment]).flatten();
-        if self.supports > rows.len() || seen.max().is_some_and(|row| row >= rows.len()) {
+        let rows = restored.rows.len();
+        if self.supports > rows || seen.max().is_some_and(|row| row >= rows) {
             return Err(damaged("there are fewer rows than supports and points"));
         }
-        Ok(Restored { system, rows, pencil })
+        Ok(restored)
     }
+}
+
+fn damaged(why: &str) -> ModelError {
+    ModelError(format!("{FILE} is damaged: {why}"))
+}
+
+/// A system in modal coordinates.
+fn modal(omega2: Vec<f64>, rows: Rows) -> Result<Restored, ModelError> {
+    let whole = match &rows {
+        Rows::Sparse { .. } => false,
+        Rows::Modal(shapes) => shapes.is_whole(omega2.len()),
+        Rows::Single(shapes) => shapes.is_whole(omega2.len()),
+    };
+    if !whole {
+        return Err(damaged("rows do not fit the coordinates"));
+    }
+    Ok(Restored { system: Arc::new(Reduced::new(omega2)), rows, pencil: None })
 }

@@ -8,28 +8,44 @@
 //! ```
 
 use faer::linalg::matmul::matmul;
-use faer::{Accum, Mat, MatMut, MatRef, Par};
+use faer::{Accum, Mat, MatMut, Par};
 use pulp::{Arch, Simd, WithSimd};
+use serde::{Deserialize, Serialize};
 
-/// A matrix.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Dense {
+/// A matrix; in single precision it takes half the way through memory. Sums are in double precision either way.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Dense<T = f64> {
     columns: usize,
     /// By rows.
-    data: Vec<f64>,
+    data: Vec<T>,
 }
 
 /// Partial sums of a product.
 const WIDE: usize = 16;
 
 impl Dense {
+    /// No rows, no columns.
+    pub const EMPTY: Self = Self { columns: 0, data: Vec::new() };
+
     /// Zeros.
     pub fn zeros(rows: usize, columns: usize) -> Self {
         Self { columns, data: vec![0.0; rows * columns] }
     }
 
+    /// A row, writable.
+    pub fn row_mut(&mut self, i: usize) -> &mut [f64] {
+        &mut self.data[i * self.columns..(i + 1) * self.columns]
+    }
+
+    /// Rounded.
+    pub fn single(&self) -> Dense<f32> {
+        Dense { columns: self.columns, data: self.data.iter().map(|x| *x as f32).collect() }
+    }
+}
+
+impl<T: Copy + Into<f64>> Dense<T> {
     /// From its numbers by rows.
-    pub fn new(columns: usize, data: Vec<f64>) -> Self {
+    pub fn new(columns: usize, data: Vec<T>) -> Self {
         Self { columns, data }
     }
 
@@ -38,31 +54,26 @@ impl Dense {
         self.data.len().checked_div(self.columns).unwrap_or(0)
     }
 
+    /// Whether it has so many rows, at least one, all of the same length.
+    pub fn is_whole(&self, rows: usize) -> bool {
+        rows > 0 && self.columns > 0 && Some(self.data.len()) == rows.checked_mul(self.columns)
+    }
+
     /// Number of columns.
     pub fn columns(&self) -> usize {
         self.columns
     }
 
-    /// All numbers by rows.
-    pub fn data(&self) -> &[f64] {
-        &self.data
-    }
-
     /// A row.
-    pub fn row(&self, i: usize) -> &[f64] {
+    pub fn row(&self, i: usize) -> &[T] {
         &self.data[i * self.columns..(i + 1) * self.columns]
     }
 
-    /// A row, writable.
-    pub fn row_mut(&mut self, i: usize) -> &mut [f64] {
-        &mut self.data[i * self.columns..(i + 1) * self.columns]
-    }
-
     /// Aᵀ diag(w) A′, A′ the first `columns` of A.
-    pub fn weighted_gram(&self, w: &[f64], columns: usize) -> Self {
-        let a = MatRef::from_row_major_slice(&self.data, self.rows(), self.columns);
+    pub fn weighted_gram(&self, w: &[f64], columns: usize) -> Dense {
+        let a: Mat<f64> = Mat::from_fn(self.rows(), self.columns, |j, k| self.row(j)[k].into());
         let weighted = Mat::from_fn(self.rows(), columns, |j, k| w[j] * a[(j, k)]);
-        let mut gram = Self::zeros(self.columns, columns);
+        let mut gram = Dense::zeros(self.columns, columns);
         let into = MatMut::from_row_major_slice_mut(&mut gram.data, self.columns, columns);
         matmul(into, Accum::Replace, a.transpose(), &weighted, 1.0, Par::Seq);
         gram
@@ -92,14 +103,14 @@ impl Dense {
     }
 }
 
-struct Fold<'a, W, const N: usize> {
-    matrix: &'a Dense,
+struct Fold<'a, T, W, const N: usize> {
+    matrix: &'a Dense<T>,
     x: &'a [f64],
     weights: W,
     y: [&'a mut [f64]; N],
 }
 
-impl<W: FnMut(usize, f64) -> [f64; N], const N: usize> WithSimd for Fold<'_, W, N> {
+impl<T: Copy + Into<f64>, W: FnMut(usize, f64) -> [f64; N], const N: usize> WithSimd for Fold<'_, T, W, N> {
     type Output = ();
 
     #[inline(always)]
@@ -117,6 +128,7 @@ impl<W: FnMut(usize, f64) -> [f64; N], const N: usize> WithSimd for Fold<'_, W, 
                 let w = w.map(|w| w[n]);
                 let [a, b, c, d] = [a, b, c, d].map(|row| &row[columns - y.len()..]);
                 for ((((y, a), b), c), d) in y.iter_mut().zip(a).zip(b).zip(c).zip(d) {
+                    let [a, b, c, d]: [f64; 4] = [(*a).into(), (*b).into(), (*c).into(), (*d).into()];
                     *y += (w[0] * a + w[1] * b) + (w[2] * c + w[3] * d);
                 }
             }
@@ -126,7 +138,7 @@ impl<W: FnMut(usize, f64) -> [f64; N], const N: usize> WithSimd for Fold<'_, W, 
             let w = weights(j, dot(a, x));
             for (y, w) in y.iter_mut().zip(w) {
                 let a = &a[columns - y.len()..];
-                y.iter_mut().zip(a).for_each(|(y, a)| *y += w * a);
+                y.iter_mut().zip(a).for_each(|(y, a)| *y += w * (*a).into());
             }
             j += 1;
         }
@@ -135,13 +147,13 @@ impl<W: FnMut(usize, f64) -> [f64; N], const N: usize> WithSimd for Fold<'_, W, 
 
 /// a · x over the first numbers of a.
 #[inline(always)]
-fn dot(a: &[f64], x: &[f64]) -> f64 {
+fn dot<T: Copy + Into<f64>>(a: &[T], x: &[f64]) -> f64 {
     let ((chunks, rest), (x, x_rest)) = (a[..x.len()].as_chunks::<WIDE>(), x.as_chunks::<WIDE>());
     let mut lanes = [0.0; WIDE];
     for (a, x) in chunks.iter().zip(x) {
-        (0..WIDE).for_each(|k| lanes[k] += a[k] * x[k]);
+        (0..WIDE).for_each(|k| lanes[k] += a[k].into() * x[k]);
     }
-    lanes.iter().sum::<f64>() + rest.iter().zip(x_rest).map(|(a, x)| a * x).sum::<f64>()
+    lanes.iter().sum::<f64>() + rest.iter().zip(x_rest).map(|(a, x)| (*a).into() * x).sum::<f64>()
 }
 
 #[cfg(test)]
@@ -156,6 +168,8 @@ mod tests {
             let x: Vec<f64> = (0..columns).map(|j| j as f64 - 2.0).collect();
             let product = |i: usize, first: usize| (0..first).map(|j| data[i * columns + j] * x[j]).sum::<f64>();
             let mut y = vec![0.0; rows];
+            a.single().multiply(&x, &mut y);
+            assert_eq!(y, (0..rows).map(|i| product(i, columns)).collect::<Vec<f64>>());
             a.multiply(&x, &mut y);
             assert_eq!(y, (0..rows).map(|i| product(i, columns)).collect::<Vec<f64>>());
             let transposed =
