@@ -34,7 +34,7 @@ fn cost(name: &str, steps: Steps) -> [f64; 2] {
     let mut bridge = Timed { inside: bridge, spent: &spent[1] };
     let mut coupling = Coupling::new(coupled.0, coupled.1, checked.settings());
     coupling.initialise(&mut train_track, &mut bridge, 0.0).expect("static equilibrium");
-    spent.each_ref().map(|spent| spent.set(0.0));
+    spent.iter().for_each(|spent| spent.set(0.0));
     let mut trials = 0;
     let axis = TimeAxis::new(steps.step, END);
     let ended = run(&mut coupling, &mut train_track, &mut bridge, axis, |_, _, _, _, info| {
