@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use ttb_bridge::Bridge;
 use ttb_coupling::iteration::IterationError;
 use ttb_coupling::run::{TimeAxis, run};
-use ttb_coupling::{Coupling, InProcess, Instance, Interface, Model, StepInfo, Work};
+use ttb_coupling::{Coupling, InProcess, Model, StepInfo, Work};
 use ttb_scenario::Checked;
 use ttb_scenario::spec::StructureSpec;
 use ttb_train_track::TrainTrack;
@@ -93,28 +93,12 @@ pub struct Pair {
 pub fn pair(checked: &Checked) -> Pair {
     let train_track = TrainTrack::new(checked.train_track.clone()).expect("train and track");
     let bridge = Bridge::new(checked.bridge.clone()).expect("bridge");
-    let (a, b) = (train_track.interface().clone(), bridge.interface().clone());
-    let references = |of: &Interface, other: &Interface, outputs: bool| -> Vec<u32> {
-        // Forces in the order of the bridge's inputs, motions in that of the train–track subsystem's.
-        let order = if outputs { other.inputs() } else { of.inputs() };
-        let names = order.map(|r| if outputs { &other.variables()[r].name } else { &of.variables()[r].name });
-        // Of several sub-steps the bridge gets the mean force.
-        let means = outputs && checked.steps().substeps > 1;
-        let names = names.map(|n| if means { n.replace(".force", ".mean_force") } else { n.clone() });
-        names.filter_map(|n| of.find(&n)).map(|r| r as u32).collect()
-    };
-    let mut train_track_instance = Instance::new(train_track);
-    let mut bridge_instance = Instance::new(bridge);
-    train_track_instance.enter_initialization(0.0).expect("initialization");
-    bridge_instance.enter_initialization(0.0).expect("initialization");
-    let outputs = [&a, &b].map(|interface| {
+    let outputs = [train_track.interface(), bridge.interface()].map(|interface| {
         let names = interface.outputs().map(|r| interface.variables()[r].name.clone());
         (names.collect(), interface.outputs().map(|r| r as u32).collect())
     });
-    let coupled = (b.inputs().len(), a.inputs().len());
-    let train_track =
-        InProcess::new("TrainTrack", train_track_instance, references(&a, &b, false), references(&a, &b, true));
-    let bridge = InProcess::new("Bridge", bridge_instance, references(&b, &a, false), references(&b, &a, true));
+    let ttb_coupling::Pair { train_track, bridge, coupled } =
+        ttb_coupling::Pair::new(train_track, bridge, |force| checked.sent_force(force)).expect("initialization");
     Pair { train_track, bridge, coupled, outputs }
 }
 

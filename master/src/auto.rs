@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! 1  frequencies of speed, irregularity, supports, wheel on rail → H, m              ttb_scenario::step
-//! 2  a short stretch at (H, m) and at (H/2, m): all steps halved                     crate::probe
+//! 2  a short stretch at (H, m) and at (H/2, m): all steps halved                     crate::stretch
 //!    error of a kind of quantity ≈ 4/3 · largest change / largest value     (second order)
 //! 3  an error above the one allowed: H ← H/2, back to 2
 //! ```
@@ -12,11 +12,11 @@ use ttb_scenario::Checked;
 use ttb_scenario::step::{Excited, Steps};
 
 use crate::build;
+use crate::connect::Given;
 use crate::error::Error;
 use crate::isolate::Isolated;
-use crate::map::Map;
 use crate::peaks::kind;
-use crate::probe::{self, Seen, Stage};
+use crate::stretch::{self, Seen, Stage};
 
 /// Greatest error where the scenario says nothing.
 const ERROR: f64 = 0.02;
@@ -62,21 +62,17 @@ pub struct KindError {
     pub error: f64,
 }
 
-/// Chooses, prints and sets the steps of a scenario that asks for it.
-pub fn choose(
-    checked: &mut Checked,
-    given: Option<&std::path::Path>,
-    isolated: &Isolated,
-    map: Option<&Map>,
-) -> Result<Option<Choice>, Error> {
+/// Chooses, prints and sets the steps of a scenario that asks for it; without `given` bridges one is built.
+pub fn choose(checked: &mut Checked, given: &[Given], isolated: &Isolated) -> Result<Option<Choice>, Error> {
     let time = checked.scenario.time;
     if time.step.given().is_some() {
         return Ok(None);
     }
     let folder = tempfile::tempdir().map_err(Error::io(std::path::Path::new("temporary folder")))?;
-    let built = given.map_or_else(|| build::bridge(checked, folder.path()), |path| Ok(path.to_path_buf()))?;
-    let stage = Stage { bridge: &built, ours: given.is_none(), isolated, map };
-    let short = probe::stretch(checked);
+    let built = if given.is_empty() { Some(build::bridge(checked, folder.path())?) } else { None };
+    let ours: Vec<Given> = built.iter().map(|path| Given { path, map: None }).collect();
+    let stage = Stage { bridges: if given.is_empty() { &ours } else { given }, ours: given.is_empty(), isolated };
+    let short = stretch::stretch(checked);
     let excited = Excited::of(&checked.train_track);
     let mut choice = Choice {
         irregularity_hz: excited.irregularity,
@@ -87,10 +83,10 @@ pub fn choose(
         errors: Vec::new(),
     };
     let mut steps = checked.steps();
-    let mut coarse = probe::run(&short, steps, &stage)?;
+    let mut coarse = stretch::run(&short, steps, &stage)?;
     for _ in 0..=HALVINGS {
         let half = Steps { step: 0.5 * steps.step, ..steps };
-        let fine = probe::run(&short, half, &stage)?;
+        let fine = stretch::run(&short, half, &stage)?;
         choice.errors = coarse.as_ref().zip(fine.as_ref()).map_or_else(Vec::new, |(coarse, fine)| errors(coarse, fine));
         let worst = choice.errors.iter().map(|kind| kind.error).reduce(f64::max);
         choice.tried.push(Tried { step_s: steps.step, substeps: steps.substeps, error: worst });

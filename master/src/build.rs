@@ -58,7 +58,7 @@ pub fn scenario(path: Option<&Path>) -> Result<Checked, Error> {
 /// As [`scenario`], with a step that is left to the program chosen.
 pub fn decided(path: Option<&Path>) -> Result<Checked, Error> {
     let mut checked = scenario(path)?;
-    crate::auto::choose(&mut checked, None, &Isolated::default(), None)?;
+    crate::auto::choose(&mut checked, &[], &Isolated::default())?;
     Ok(checked)
 }
 

@@ -56,6 +56,12 @@ pub enum Command {
     /// Test an FMU: does it do what its description and the standard promise?
     #[command(after_help = CHECK_HELP)]
     Check(Check),
+    /// Run a scenario by the paper's methods: strongly coupled, loosely coupled, hybrid, multi-time-step
+    #[command(after_help = COMPARE_HELP)]
+    Compare(Compare),
+    /// Run a scenario at several steps and show how accurate every reported quantity is
+    #[command(after_help = "The output folder gets accuracy.md, accuracy.csv and the plot accuracy.svg and .png.")]
+    Accuracy(Accuracy),
     /// Show what an FMU offers and propose a map of its variables
     Inspect(Inspect),
     /// Make a bridge model of shells and beams, and a scenario that runs a train over it
@@ -71,7 +77,11 @@ pub enum Command {
     },
     /// What `ttb run --isolate` starts to run an FMU in
     #[command(hide = true)]
-    Host,
+    Host {
+        /// Load this library first
+        #[arg(long)]
+        preload: Vec<PathBuf>,
+    },
 }
 
 const RUN_HELP: &str = "\
@@ -81,6 +91,12 @@ The output folder gets
   summary.json     peaks with place and time, contact forces, iterations, timing, versions
   results.svg      deck, cars and wheels over time
   *.fmu            the two FMUs that were run
+
+A bridge of somebody else's (docs/guide/bridges.md):
+  ttb check THEIRS.fmu                         does it keep what FMI promises?
+  ttb inspect --map THEIRS.fmu > map.json      a map of its variables onto ours: names, signs, units, places
+  ttb run scenario.json --bridge THEIRS.fmu --map map.json
+Trial steps before the run find wrong signs and units, and states that do not come back.
 
 A foreign FMU that crashes takes the program and its results along, unless it is isolated:
   ttb run scenario.json --bridge THEIRS.fmu --isolate --timeout 10";
@@ -111,12 +127,14 @@ pub struct Run {
     /// Use this FMU as the train–track subsystem instead of building one
     #[arg(long, value_name = "FMU")]
     pub train_track: Option<PathBuf>,
-    /// Use this FMU as the bridge instead of building one
+    /// Use this FMU as the bridge instead of building one; several times for several bridges in track order
     #[arg(long, value_name = "FMU")]
-    pub bridge: Option<PathBuf>,
-    /// How the given bridge's variables belong to ours; `ttb inspect FMU --map` proposes one
+    pub bridge: Vec<PathBuf>,
+    /// How the given bridge's variables belong to ours, where they stand, parameters; `ttb inspect FMU --map` proposes one
+    ///
+    /// With several bridges: one map for all, or one for each in the same order.
     #[arg(long, value_name = "FILE", requires = "bridge")]
-    pub map: Option<PathBuf>,
+    pub map: Vec<PathBuf>,
     /// Run FMUs in processes of their own: should one crash or hang, the results so far are kept
     ///
     /// Without value: the FMUs given by --bridge and --train-track, or both of an .ssp file. What such an FMU prints goes
@@ -126,6 +144,12 @@ pub struct Run {
     /// Longest time a call of an isolated FMU may take [default: 60]
     #[arg(long, value_name = "SECONDS", requires = "isolate", allow_negative_numbers = true)]
     pub timeout: Option<f64>,
+    /// Load this library before the FMUs, e.g. libpython3.11.so.1.0 for those made with PythonFMU
+    #[arg(long, value_name = "LIB")]
+    pub preload: Vec<PathBuf>,
+    /// Skip the trial steps before the run that test roll-back, signs and units of the FMUs
+    #[arg(long)]
+    pub no_probe: bool,
     /// No progress, no summary
     #[arg(short, long)]
     pub quiet: bool,
@@ -161,12 +185,138 @@ pub struct Check {
     /// Seconds a single call may take
     #[arg(long, default_value_t = 30.0, value_name = "SECONDS")]
     pub timeout: f64,
+    /// Load this library before the FMU, e.g. libpython3.11.so.1.0 for one made with PythonFMU
+    #[arg(long, value_name = "LIB")]
+    pub preload: Vec<PathBuf>,
     /// Make one of the checks in this process
     #[arg(long, hide = true)]
     pub worker: Option<String>,
     /// Where it reports
     #[arg(long, hide = true)]
     pub report: Option<PathBuf>,
+}
+
+const COMPARE_HELP: &str = "\
+Without --steps every method runs at its own step, as in the paper: the scenario's, and LCM at the longest whole part of it
+that is well below its limit of convergence; HSA at that step too. The output folder gets compare.csv, compare.json and
+figure-7 to figure-10 as SVG and PNG.
+
+  ttb compare examples/r1.json
+  ttb compare examples/cable-stayed-120k/scenario.json --budget 600 --reference none";
+
+/// Arguments of `ttb compare`.
+#[derive(Debug, Args)]
+pub struct Compare {
+    /// The scenario file [default: the bundled ICE 3 over a cable-stayed bridge]
+    pub scenario: Option<PathBuf>,
+    /// Folder for the results
+    #[arg(short, long, default_value = "ttb-compare")]
+    pub output: PathBuf,
+    /// Methods, in the order of the table
+    #[arg(long, value_enum, value_delimiter = ',', default_values_t = Compared::ALL)]
+    pub methods: Vec<Compared>,
+    /// All methods at each of these steps
+    #[arg(long, value_name = "SECONDS", value_delimiter = ',', value_parser = positive)]
+    pub steps: Vec<f64>,
+    /// Step of the run that peaks are compared with; none: no such run [default: a tenth of the scenario's]
+    #[arg(long, value_name = "SECONDS", default_value = "auto", hide_default_value = true)]
+    pub reference: Fine,
+    /// CPU time that the steps of a row may take; the total is then extrapolated
+    #[arg(long, value_name = "SECONDS", value_parser = positive)]
+    pub budget: Option<f64>,
+    /// Monitored point [default: the first]
+    #[arg(long, value_name = "NAME")]
+    pub point: Option<String>,
+    /// Car, counted from the front
+    #[arg(long, default_value_t = 1)]
+    pub car: usize,
+    /// Wheelset, counted from the front
+    #[arg(long, default_value_t = 1)]
+    pub wheel: usize,
+    /// No progress
+    #[arg(short, long)]
+    pub quiet: bool,
+}
+
+/// Arguments of `ttb accuracy`.
+#[derive(Debug, Args)]
+pub struct Accuracy {
+    /// The scenario file [default: the bundled ICE 3 over a cable-stayed bridge]
+    pub scenario: Option<PathBuf>,
+    /// Folder for the results
+    #[arg(short, long, default_value = "ttb-accuracy")]
+    pub output: PathBuf,
+    /// Steps, multiples of the fine one
+    #[arg(long, value_name = "SECONDS", value_delimiter = ',', value_parser = positive,
+        default_values_t = [4e-3, 2e-3, 1e-3, 5e-4, 2e-4, 1e-4])]
+    pub steps: Vec<f64>,
+    /// Step of the fine run
+    #[arg(long, value_name = "SECONDS", value_parser = positive, default_value_t = 2e-5)]
+    pub reference: f64,
+    /// No progress
+    #[arg(short, long)]
+    pub quiet: bool,
+}
+
+/// The methods compared.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Compared {
+    /// Strongly coupled, one system refactorised every step, as in the paper
+    Scm,
+    /// Strongly coupled, constant matrices and the contacts' Schur complement
+    Schur,
+    /// Loosely coupled at the wheels
+    Lcm,
+    /// Loosely coupled with the best under-relaxation
+    LcmRelaxed,
+    /// The hybrid algorithm: this program
+    Hsa,
+    /// The hybrid algorithm, train and track with ten steps a step of the bridge
+    Multi,
+}
+
+impl Compared {
+    const ALL: [Self; 6] = [Self::Scm, Self::Schur, Self::Lcm, Self::LcmRelaxed, Self::Hsa, Self::Multi];
+}
+
+/// The step of the fine run.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Fine {
+    /// A tenth of the scenario's.
+    Auto,
+    /// No such run.
+    None,
+    /// s.
+    Step(f64),
+}
+
+impl Fine {
+    /// In seconds, for a scenario's step.
+    pub fn fine(self, step: f64) -> Option<f64> {
+        match self {
+            Self::Auto => Some(0.1 * step),
+            Self::None => None,
+            Self::Step(h) => Some(h),
+        }
+    }
+}
+
+impl std::str::FromStr for Fine {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        match text {
+            "auto" => Ok(Self::Auto),
+            "none" => Ok(Self::None),
+            other => positive(other).map(Self::Step),
+        }
+    }
+}
+
+/// A positive number of seconds.
+fn positive(text: &str) -> Result<f64, String> {
+    let seconds = text.parse::<f64>().ok().filter(|s| *s > 0.0 && s.is_finite());
+    seconds.ok_or_else(|| "a positive number of seconds is wanted".into())
 }
 
 /// Arguments of `ttb inspect`.

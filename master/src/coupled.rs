@@ -1,6 +1,7 @@
 //! What the summary says of the coupling: its strength, the method that dealt with it, the error where it was not iterated.
 
 use serde::Serialize;
+use ttb_coupling::probe::Probe;
 use ttb_coupling::report::Source;
 use ttb_coupling::{Coupling, Method};
 
@@ -26,6 +27,8 @@ pub struct CouplingReport {
     /// Work at the interface; absent where it is not known which force moves along which displacement.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub work: Option<WorkReport>,
+    /// What trial steps before the run showed.
+    pub probe: ProbeReport,
 }
 
 /// Work that was made or lost at the interface, all steps together.
@@ -39,6 +42,27 @@ pub struct WorkReport {
     pub exchange_imbalance: f64,
 }
 
+/// What trial steps before the run showed; empty where none could be made.
+#[derive(Clone, Debug, Default, Serialize)]
+pub struct ProbeReport {
+    /// By how much a step of every bridge repeated from a saved state differs, relative to what other forces change.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub bridge_repeats_to: Vec<f64>,
+    /// The same of the train–track side.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub train_track_repeats_to: Option<f64>,
+    /// Of every bridge: the mass a support whose displacement, and whose velocity, would be that of the trial, kg.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub mass_per_support: Vec<[f64; 2]>,
+}
+
+impl From<&Probe> for ProbeReport {
+    fn from(probe: &Probe) -> Self {
+        let mass_per_support = probe.responses.iter().map(|response| response.mass).collect();
+        Self { bridge_repeats_to: probe.bridge.clone(), train_track_repeats_to: probe.train_track, mass_per_support }
+    }
+}
+
 /// A change of method.
 #[derive(Clone, Debug, Serialize)]
 pub struct Switch {
@@ -50,7 +74,7 @@ pub struct Switch {
 
 impl CouplingReport {
     /// What the coupling knows at the end of a run.
-    pub fn new(coupling: &Coupling) -> Self {
+    pub fn new(coupling: &Coupling, probe: &Probe) -> Self {
         let report = coupling.report();
         let switches = report.switches.iter().map(|(time, method)| Switch { time: *time, method: method.name() });
         let (explicit, work) = (report.explicit, report.work);
@@ -69,6 +93,7 @@ impl CouplingReport {
                 imbalance: work.imbalance(),
                 exchange_imbalance: work.exchange_imbalance(),
             }),
+            probe: probe.into(),
         }
     }
 

@@ -21,6 +21,9 @@ pub enum Error {
     /// An FMU failed.
     #[error("{0}")]
     Fmu(String),
+    /// A bridge FMU that says it rolls back, and does not: it is to be run as one that does not.
+    #[error("{0}")]
+    Lies(String),
     /// A file.
     #[error("{}: {source}", path.display())]
     Io {
@@ -52,7 +55,7 @@ impl Error {
             Self::Findings { .. } => 1,
             Self::Scenario(_) | Self::Input(_) => 2,
             Self::NotConverged(_) => 3,
-            Self::Fmu(_) => 4,
+            Self::Fmu(_) | Self::Lies(_) => 4,
             Self::Io { .. } | Self::Pack(_) => 5,
             Self::Interrupted => 130,
         }
@@ -63,7 +66,7 @@ impl Error {
         match self {
             Self::Scenario(_) | Self::Input(_) => "bad-input",
             Self::NotConverged(_) => "not-converged",
-            Self::Fmu(_) => "fmu-failed",
+            Self::Fmu(_) | Self::Lies(_) => "fmu-failed",
             Self::Io { .. } | Self::Pack(_) => "io-failed",
             Self::Findings { .. } => "findings",
             Self::Interrupted => "interrupted",
@@ -81,6 +84,9 @@ impl From<IterationError> for Error {
     fn from(error: IterationError) -> Self {
         match error {
             IterationError::Subsystem(failure) => Self::Fmu(failure.to_string()),
+            lie @ IterationError::NoReturn { .. } => {
+                Self::Fmu(format!("{lie}; \"roll_back\": false in the bridge's map (--map) does without"))
+            }
             other => Self::NotConverged(other),
         }
     }

@@ -93,6 +93,7 @@ pub fn propose(d: &ModelDescription) -> Option<Map> {
         force: entry(d, force),
         displacement: entry(d, displacement),
         velocity: velocity.map(|found| entry(d, found)),
+        ..Map::default()
     })
 }
 
@@ -145,5 +146,6 @@ fn entry(d: &ModelDescription, found: &Found) -> Series {
     // 1/1000 and the like come out as written, not as 9.999999999999999e-4.
     let factor = format!("{factor:.12e}").parse().unwrap_or(factor);
     let first = found.numbers.first().copied().unwrap_or(1);
-    Series { name: found.pattern.clone(), first, factor: if up { -factor } else { factor } }
+    let factor = Some(if up { -factor } else { factor });
+    Series { name: Some(found.pattern.clone()), first: Some(first), factor, ..Series::default() }
 }

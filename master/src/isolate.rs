@@ -9,6 +9,7 @@ use ttb_fmi2::isolate::{AVAILABLE, Isolation};
 
 use crate::cli::{Isolate, Run};
 use crate::error::Error;
+use crate::preload;
 use crate::system::is_system;
 
 /// How long a call may take if nothing else is said, s.
@@ -47,7 +48,9 @@ impl Isolated {
         let timeout = timeout.ok_or_else(|| Error::Input(format!("--timeout must be more than 0 s, not {seconds}")))?;
         let program = std::env::current_exe().map_err(Error::io(Path::new("the path of this program")))?;
         let listener = Arc::new(|name: &str, line: &str| eprintln!("{name}: {line}"));
-        let isolation = Isolation { program, arguments: vec!["host".into()], timeout, listener };
+        let mut host = vec!["host".into()];
+        host.extend(preload::passed_on(&arguments.preload));
+        let isolation = Isolation { program, arguments: host, timeout, listener };
         let wanted = |is: bool| is.then(|| isolation.clone());
         Ok(Self { train_track: wanted(train_track), bridge: wanted(bridge) })
     }
@@ -68,7 +71,7 @@ impl Isolated {
 /// Whether train–track and bridge FMU come from the user: by an option, or in a system structure.
 fn given(arguments: &Run) -> [bool; 2] {
     let system = arguments.scenario.as_deref().is_some_and(is_system);
-    [&arguments.train_track, &arguments.bridge].map(|fmu| system || fmu.is_some())
+    [arguments.train_track.is_some(), !arguments.bridge.is_empty()].map(|given| system || given)
 }
 
 /// Opens an FMU for this process or one of its own.

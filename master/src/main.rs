@@ -8,10 +8,13 @@ macro_rules! say {
     }};
 }
 
+mod assign;
 mod auto;
 mod build;
 mod check;
 mod cli;
+mod clock;
+mod compare;
 mod connect;
 mod coupled;
 mod error;
@@ -21,12 +24,16 @@ mod inspect_bridge;
 mod isolate;
 mod job;
 mod map;
+mod parameters;
 mod peaks;
+mod picture;
 mod plot;
+mod preload;
 mod probe;
 mod record;
 mod run;
 mod series;
+mod stretch;
 mod summary;
 mod system;
 
@@ -66,13 +73,18 @@ fn execute(command: Command) -> Result<(), Error> {
             Ok(())
         }
         Command::Check(arguments) => check::check(&arguments),
+        Command::Accuracy(arguments) => compare::accuracy::accuracy(&arguments),
+        Command::Compare(arguments) => compare::compare(&arguments),
         Command::Inspect(arguments) => inspect::inspect(&arguments),
         Command::ExportSsp(arguments) => {
             say!("{}", system::export(&arguments)?.display());
             Ok(())
         }
         Command::Generate(arguments) => generate::generate(&arguments),
-        Command::Host => ttb_fmi2::isolate::host().map_err(Error::Input),
+        Command::Host { preload } => {
+            preload::load(&preload)?;
+            ttb_fmi2::isolate::host().map_err(Error::Input)
+        }
         Command::InspectBridge { file } => inspect_bridge::inspect(&file),
         Command::Schema { bridge } => {
             say!("{:#}", if bridge { ttb_scenario::model_schema() } else { ttb_scenario::schema() });

@@ -1,29 +1,31 @@
-//! How a foreign bridge's variables belong to ours: the file `ttb inspect --map` proposes.
+//! How a foreign bridge's variables belong to ours: the file `ttb inspect --map` proposes and `ttb run --map` reads.
 //!
 //! ```json
 //! {
-//!   "force":        { "name": "f[{i}]",        "first": 0, "factor": 1e-3 },
-//!   "displacement": { "name": "Deck.uz_{i}",   "first": 0, "factor": -1e3 },
-//!   "velocity":     null
+//!   "force":        { "name": "f[{i}]",      "first": 0, "factor": 1e-3 },
+//!   "displacement": { "name": "Deck.uz_{i}", "first": 0, "factor": -1e3 },
+//!   "velocity":     null,
+//!   "stations":     { "from": 0.0, "spacing": 2.5 },
+//!   "parameters":   { "Deck.EI": 4.4e11 }
 //! }
 //! ```
 //!
 //! Our variables are `support[k].force`, `.displacement` and `.velocity` for k = 1 … n in track order, in N, m and m/s,
-//! down positive. Theirs for support k has the number `first + k - 1` in place of `{i}`, and for all three
+//! down positive. Theirs at place k has the number `first + k - 1` in place of `{i}`, and for all three
 //!
 //! ```text
 //! their value = factor · our value
 //! ```
 //!
-//! so 1e-3 stands for kN, 1e3 for mm, a negative factor for up positive. Without `velocity` the two cannot be coupled: the track's
-//! dashpots need it.
+//! so 1e-3 stands for kN, 1e3 for mm, a negative factor for up positive. Without `stations` their places are our supports.
 
-use std::path::Path;
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
-use ttb_fmi2::import::{Linear, ModelDescription, VariableType};
+use ttb_coupling::Shape;
+use ttb_fmi2::import::ModelDescription;
 
-use crate::connect::{Wire, Wiring};
 use crate::error::Error;
 
 /// The place of the number in a name.
@@ -34,122 +36,253 @@ pub const INDEX: &str = "{i}";
 #[serde(deny_unknown_fields)]
 pub struct Map {
     /// Inputs of the bridge: forces on the deck.
+    #[serde(default = "our_force")]
     pub force: Series,
-    /// Outputs: the deck's displacements under the supports.
+    /// Outputs: the deck's displacements.
+    #[serde(default = "our_displacement")]
     pub displacement: Series,
-    /// Outputs: their velocities; may be absent.
-    #[serde(default)]
+    /// Outputs: their velocities; null: there are none, they follow from the displacements.
+    #[serde(default = "our_velocity")]
     pub velocity: Option<Series>,
+    /// Where their places are, if they are not our supports.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub stations: Option<Places>,
+    /// Shape of the deck between stations.
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub interpolation: Interpolation,
+    /// Where the deck bears without a station, m: it does not move there.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub bearings: Vec<f64>,
+    /// Our supports that stand on this bridge, first and last, from 1.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub supports: Option<[usize; 2]>,
+    /// Whether to save and restore its state, if it can.
+    #[serde(default = "yes", skip_serializing_if = "is_yes")]
+    pub roll_back: bool,
+    /// Parameters and start values by name, in the FMU's own units.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub parameters: BTreeMap<String, Value>,
+    /// Where it was read, for messages.
+    #[serde(skip)]
+    pub path: PathBuf,
 }
 
-/// A series of variables with a running number.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+/// Variables with a running number, or one by one.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Series {
     /// Name with `{i}` in place of the number.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub name: Option<String>,
+    /// The number at the first place.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub first: Option<i64>,
+    /// Or all names in track order.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub names: Vec<String>,
+    /// Their value = factor · our value; absent: by the unit they declare.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub factor: Option<f64>,
+}
+
+/// Positions along the track, m from the bridge's begin in the scenario.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(untagged)]
+pub enum Places {
+    /// One by one.
+    List(Vec<f64>),
+    /// Equally spaced; as many as there are variables.
+    Even(Even),
+    /// Parameters or outputs of the FMU.
+    Read(Read),
+}
+
+/// Equally spaced places, m.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Even {
+    /// The first.
+    pub from: f64,
+    /// From each to the next.
+    pub spacing: f64,
+}
+
+/// Places that the FMU knows.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Read {
+    /// Name with `{i}` in place of the number.
     pub name: String,
-    /// The number at our first support.
+    /// The number at the first place.
     #[serde(default = "one")]
     pub first: i64,
-    /// Their value = factor · our value.
-    #[serde(default = "unity")]
-    pub factor: f64,
+    /// Their value = factor · metres; absent: by the unit they declare.
+    #[serde(default)]
+    pub factor: Option<f64>,
+    /// Added to what is read, m.
+    #[serde(default)]
+    pub offset: f64,
+}
+
+/// Shape of the deck between stations.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Interpolation {
+    /// Straight lines.
+    Linear,
+    /// Cubics through four stations.
+    #[default]
+    Cubic,
+}
+
+/// A parameter's value.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(untagged)]
+pub enum Value {
+    /// For a Boolean.
+    Boolean(bool),
+    /// For a Real, an Integer, an enumeration.
+    Number(f64),
+    /// For a String.
+    Text(String),
+}
+
+fn yes() -> bool {
+    true
+}
+
+fn is_yes(value: &bool) -> bool {
+    *value
 }
 
 fn one() -> i64 {
     1
 }
 
-fn unity() -> f64 {
-    1.0
+fn is_default<T: Default + PartialEq>(value: &T) -> bool {
+    *value == T::default()
 }
 
-impl Series {
-    /// Their name for our support k = 1 … n.
-    pub fn at(&self, k: usize) -> String {
-        self.name.replacen(INDEX, &(self.first + k as i64 - 1).to_string(), 1)
+fn ours(what: &str) -> Series {
+    Series { name: Some(format!("support[{INDEX}].{what}")), ..Series::default() }
+}
+fn our_force() -> Series {
+    ours("force")
+}
+fn our_displacement() -> Series {
+    ours("displacement")
+}
+fn our_velocity() -> Option<Series> {
+    Some(ours("velocity"))
+}
+
+impl Default for Map {
+    /// Our own names.
+    fn default() -> Self {
+        Self {
+            force: our_force(),
+            displacement: our_displacement(),
+            velocity: our_velocity(),
+            stations: None,
+            interpolation: Interpolation::default(),
+            bearings: Vec::new(),
+            supports: None,
+            roll_back: true,
+            parameters: BTreeMap::new(),
+            path: PathBuf::new(),
+        }
     }
 }
 
-/// Missing names told one by one.
-const TOLD: usize = 10;
+impl From<Interpolation> for Shape {
+    fn from(interpolation: Interpolation) -> Self {
+        match interpolation {
+            Interpolation::Linear => Self::Linear,
+            Interpolation::Cubic => Self::Cubic,
+        }
+    }
+}
+
+impl Series {
+    /// Their name at place k = 1 … n; none beyond a list's end.
+    pub fn at(&self, k: usize) -> Option<String> {
+        match &self.name {
+            Some(name) => Some(numbered(name, self.first.unwrap_or(1), k)),
+            None => self.names.get(k - 1).cloned(),
+        }
+    }
+
+    /// How many of them an FMU has, from the first on.
+    pub fn count(&self, description: &ModelDescription) -> usize {
+        let has = |k: &usize| self.at(*k).is_some_and(|name| description.variable(&name).is_some());
+        (1..).take_while(has).count()
+    }
+
+    /// What is wrong with it.
+    fn problem(&self) -> Option<String> {
+        match (&self.name, self.names.is_empty(), self.first, self.factor) {
+            (Some(_), false, ..) => Some("give name or names, not both".into()),
+            (None, true, ..) => Some("needs a name with {i}, or names".into()),
+            (Some(name), true, ..) if !name.contains(INDEX) => Some(format!("name must contain {INDEX}: `{name}`")),
+            (None, false, Some(_), _) => Some("first belongs to a name with {i}, not to names".into()),
+            (.., Some(factor)) if !factor.is_finite() || factor == 0.0 => {
+                Some(format!("factor must be finite and not 0: {factor}"))
+            }
+            _ => None,
+        }
+    }
+}
+
+impl Read {
+    /// Their name at place k = 1 … n.
+    pub fn at(&self, k: usize) -> String {
+        numbered(&self.name, self.first, k)
+    }
+}
+
+fn numbered(name: &str, first: i64, k: usize) -> String {
+    name.replacen(INDEX, &(first + k as i64 - 1).to_string(), 1)
+}
 
 impl Map {
     /// Reads the file.
     pub fn load(path: &Path) -> Result<Self, Error> {
-        let text = std::fs::read_to_string(path).map_err(|e| Error::Input(format!("{}: {e}", path.display())))?;
-        let map: Self = serde_json::from_str(&text).map_err(|e| Error::Input(format!("{}: {e}", path.display())))?;
-        for (key, series) in map.series() {
-            let rule = if !series.name.contains(INDEX) {
-                format!("name must contain {INDEX}: `{}`", series.name)
-            } else if !(series.factor.is_finite() && series.factor != 0.0) {
-                format!("factor must be finite and not 0: {}", series.factor)
-            } else {
-                continue;
-            };
-            return Err(Error::Input(format!("{}: $.{key}: {rule}", path.display())));
-        }
-        Ok(map)
+        let refused = |why: String| Error::Input(format!("{}: {why}", path.display()));
+        let text = std::fs::read_to_string(path).map_err(|e| refused(e.to_string()))?;
+        let mut map: Self = serde_json::from_str(&text).map_err(|e| refused(e.to_string()))?;
+        map.path = path.to_path_buf();
+        let problems = map.problems();
+        if problems.is_empty() { Ok(map) } else { Err(refused(problems.join(&format!("\n{}: ", path.display())))) }
     }
 
-    fn series(&self) -> impl Iterator<Item = (&'static str, &Series)> {
-        let velocity = self.velocity.iter().map(|series| ("velocity", series));
-        [("force", &self.force), ("displacement", &self.displacement)].into_iter().chain(velocity)
-    }
-
-    /// Connections between our train–track FMU and their bridge.
-    pub fn wiring(&self, train_track: &ModelDescription, bridge: &ModelDescription) -> Result<Wiring, Error> {
-        let Some(velocity) = &self.velocity else {
-            return Err(Error::Input(
-                "the map has no velocity: the track's dashpots need the velocities of the deck as outputs of the bridge".into(),
-            ));
-        };
-        let supports = (1..).take_while(|k| has(train_track, &ours(*k, "force"), "output")).count();
-        let (mut wiring, mut missing) = (Wiring { forces: Vec::new(), motions: Vec::new() }, Vec::new());
-        let mut find = |name: String, causality: &str| {
-            if !has(bridge, &name, causality) {
-                missing.push(format!("{causality} {name}"));
+    /// Everything that is wrong with it, each with its place.
+    fn problems(&self) -> Vec<String> {
+        let series = [
+            ("force", Some(&self.force)),
+            ("displacement", Some(&self.displacement)),
+            ("velocity", self.velocity.as_ref()),
+        ];
+        let told = |(key, series): (&str, Option<&Series>)| series?.problem().map(|rule| format!("$.{key}: {rule}"));
+        let mut problems: Vec<String> = series.into_iter().filter_map(told).collect();
+        match &self.stations {
+            None if !self.bearings.is_empty() => {
+                problems.push("$.bearings: belong to stations, and there are none".into())
             }
-            name
-        };
-        for k in 1..=supports {
-            wiring.forces.push(Wire {
-                output: ours(k, "force"),
-                input: find(self.force.at(k), "input"),
-                from_output: Linear::IDENTITY,
-                to_input: Linear { factor: self.force.factor, offset: 0.0 },
-            });
-        }
-        for (what, series) in [("displacement", &self.displacement), ("velocity", velocity)] {
-            for k in 1..=supports {
-                wiring.motions.push(Wire {
-                    output: find(series.at(k), "output"),
-                    input: ours(k, what),
-                    from_output: Linear { factor: series.factor.recip(), offset: 0.0 },
-                    to_input: Linear::IDENTITY,
-                });
+            Some(Places::Even(Even { from, spacing }))
+                if !(from.is_finite() && *spacing > 0.0 && spacing.is_finite()) =>
+            {
+                problems.push(format!("$.stations: spacing must be positive: {spacing}"));
             }
+            Some(Places::Read(read)) if !read.name.contains(INDEX) => {
+                problems.push(format!("$.stations: name must contain {INDEX}: `{}`", read.name));
+            }
+            _ => {}
         }
-        if supports == 0 || !missing.is_empty() {
-            let more = missing.len().saturating_sub(TOLD);
-            missing.truncate(TOLD);
-            let more = if more > 0 { format!(" and {more} more") } else { String::new() };
-            return Err(Error::Input(format!(
-                "{}: {supports} supports are mapped, but it has no {}{more}",
-                bridge.model_name,
-                missing.join(", ")
-            )));
+        if let Some([first, last]) = self.supports.filter(|[first, last]| *first == 0 || last < first) {
+            problems.push(format!("$.supports: first and last, counted from 1: [{first}, {last}]"));
         }
-        Ok(wiring)
+        problems
     }
-}
-
-fn ours(k: usize, what: &str) -> String {
-    format!("support[{k}].{what}")
-}
-
-fn has(description: &ModelDescription, name: &str, causality: &str) -> bool {
-    description.with_causality(causality).any(|v| v.name == name && v.kind == VariableType::Real)
 }
 
 #[cfg(test)]
@@ -159,10 +292,20 @@ mod tests {
     #[test]
     fn names_follow_the_number_and_defaults_are_ours() {
         let text =
-            r#"{ "force": { "name": "f[{i}]", "first": 0, "factor": 1e-3 }, "displacement": { "name": "u_{i}" } }"#;
+            r#"{ "force": { "name": "f[{i}]", "first": 0, "factor": 1e-3 }, "displacement": { "names": ["a", "b"] } }"#;
         let map: Map = serde_json::from_str(text).unwrap();
-        assert_eq!([map.force.at(1), map.force.at(12), map.displacement.at(3)], ["f[0]", "f[11]", "u_3"]);
-        assert_eq!((map.displacement.factor, map.velocity.is_none()), (1.0, true));
+        let at = |series: &Series, k| series.at(k).unwrap_or_default();
+        assert_eq!([at(&map.force, 1), at(&map.force, 12), at(&map.displacement, 2)], ["f[0]", "f[11]", "b"]);
+        assert_eq!((map.displacement.at(3), map.displacement.factor), (None, None));
+        assert_eq!(at(map.velocity.as_ref().unwrap(), 7), "support[7].velocity");
         assert!(serde_json::from_str::<Map>(&text.replace("first", "frist")).is_err());
+        assert_eq!(serde_json::from_str::<Map>("{}").unwrap(), Map::default());
+    }
+
+    #[test]
+    fn all_problems_are_told() {
+        let text = r#"{ "force": { "name": "f" }, "displacement": { "name": "u{i}", "names": ["u"] }, "velocity": { "factor": 2 },
+                        "bearings": [0.0], "supports": [3, 2] }"#;
+        assert_eq!(serde_json::from_str::<Map>(text).unwrap().problems().len(), 5);
     }
 }

@@ -48,7 +48,7 @@ impl Plot {
         let mut curves = Vec::new();
         for (panel, Panel { begin, end, .. }) in PANELS.iter().enumerate() {
             let matches: Vec<usize> = (0..recorder.columns.len())
-                .filter(|i| recorder.columns[*i].name.starts_with(begin) && recorder.columns[*i].name.ends_with(end))
+                .filter(|i| recorder.columns[*i].name.contains(begin) && recorder.columns[*i].name.ends_with(end))
                 .collect();
             let count = matches.len().min(CURVES);
             let chosen = (0..count).map(|i| matches[if count > 1 { i * (matches.len() - 1) / (count - 1) } else { 0 }]);
@@ -68,6 +68,7 @@ impl Plot {
 
     /// Draws the picture; the message says what went wrong.
     pub fn draw(&self, path: &Path, title: &str) -> Result<(), String> {
+        crate::picture::register_letters();
         let root = SVGBackend::new(path, (1200, 1000)).into_drawing_area();
         self.draw_on(&root, title).map_err(|e| e.to_string())
     }

@@ -1,130 +1,122 @@
-//! A short stretch of a run: the train begins on the bridge's edge and rolls some way on, to see what a step is worth.
+//! What the trial steps before the first one mean, in the words of the map.
 
-use std::ops::ControlFlow;
-use std::path::Path;
+use ttb_coupling::probe::{Probe, is_lie};
+use ttb_coupling::verdict::{Response, Verdict};
 
-use ttb_coupling::IterationError;
-use ttb_coupling::run::{TimeAxis, run as run_steps};
-use ttb_coupling::work::WORK;
-use ttb_fmi2::import::{FmuSubsystem, VariableType};
-use ttb_scenario::Checked;
-use ttb_scenario::step::Steps;
-use ttb_scenario::travel::distance;
-
-use crate::build;
-use crate::connect::connect;
+use crate::assign::Assigned;
 use crate::error::Error;
-use crate::isolate::Isolated;
-use crate::map::Map;
 
-/// The way, m: bridge and fading in of the irregularity, but no more and no less than this.
-const WAY: [f64; 2] = [40.0, 60.0];
-const FADE_IN: f64 = 20.0;
-/// Of a train that stands, s.
-const STANDING: f64 = 0.2;
-
-/// The bridge of a probe.
-pub struct Stage<'a> {
-    /// Its FMU.
-    pub bridge: &'a Path,
-    /// Whether that is ours: its parameter `step_size` is then set.
-    pub ours: bool,
-    /// Where FMUs run.
-    pub isolated: &'a Isolated,
-    /// How a foreign bridge's variables belong to ours.
-    pub map: Option<&'a Map>,
-}
-
-/// An output on the stretch.
-#[derive(Clone, Debug)]
-pub struct Seen {
-    /// FMI name.
-    pub name: String,
-    /// Least, greatest value.
-    pub range: [f64; 2],
-    /// Its values at the ends of all steps, if they are those of these times: what is a mean or a peak over the step before
-    /// has none.
-    pub history: Option<Vec<f64>>,
-}
-
-/// The scenario of the stretch.
-pub fn stretch(checked: &Checked) -> Checked {
-    let mut short = checked.clone();
-    let (spec, bridge) = (&mut short.train_track, &checked.scenario.bridge);
-    let speed = spec.speed.iter().map(|point| point[1]).fold(0.0, f64::max);
-    let end = spec.front_wheel + distance(&spec.speed, spec.end);
-    let supports = &checked.bridge.supports;
-    let wanted = (supports.last().copied().unwrap_or(0.0) + FADE_IN).clamp(WAY[0], WAY[1]);
-    // The train cannot begin before it does, nor go farther than it goes.
-    let begin = if bridge.at < end { spec.front_wheel.max(bridge.at) } else { spec.front_wheel };
-    let way = wanted.min(end - begin);
-    spec.end = if speed > 0.0 { (way / speed).min(spec.end) } else { STANDING.min(spec.end) };
-    (spec.front_wheel, spec.pre_roll, spec.speed) = (begin, 0.0, vec![[0.0, speed]]);
-    short.bridge.end = spec.end;
-    short
-}
-
-/// Runs the stretch; `None` if the iteration does not converge.
-pub fn run(short: &Checked, steps: Steps, stage: &Stage) -> Result<Option<Vec<Seen>>, Error> {
-    let folder = tempfile::tempdir().map_err(Error::io(Path::new("temporary folder")))?;
-    let mut short = short.clone();
-    short.set_steps(steps);
-    let train_track = build::train_track(&short, folder.path())?;
-    let mut connected = connect(&train_track, stage.bridge, &short, stage.isolated, stage.map)?;
-    let (train_track, bridge) = (&mut connected.train_track, &mut connected.bridge);
-    if stage.ours {
-        let known = bridge.instance().description().variable("step_size").map(|v| v.value_reference);
-        known.map_or(Ok(()), |reference| bridge.instance().set_real(&[reference], &[steps.step]))?;
+/// Refuses what was found to be wrong; `parts` are the bridges.
+pub fn judge(probe: &Probe, train_track: &str, parts: &[(String, Assigned)]) -> Result<(), Error> {
+    if let Some(off) = probe.train_track.filter(|off| is_lie(*off)) {
+        return Err(Error::Fmu(format!("{train_track}: {}", lie(off))));
     }
-    // A bridge may give means as accelerations: ours does where forces are held.
-    let mut sides = [Side::new(train_track, true), Side::new(bridge, false)];
-    let ended = connected.coupling.initialise(train_track, bridge, 0.0).map_err(Error::from).and_then(|_| {
-        sides[0].update(train_track)?;
-        sides[1].update(bridge)?;
-        let axis = TimeAxis::new(steps.step, short.train_track.end);
-        run_steps(&mut connected.coupling, train_track, bridge, axis, |train_track, bridge, _, _, _| {
-            sides[0].update(train_track)?;
-            sides[1].update(bridge)?;
-            Ok::<_, Error>(ControlFlow::Continue(()))
-        })
-    });
-    match ended {
-        Ok(_) => Ok(Some(sides.into_iter().flat_map(|side| side.seen).collect())),
-        Err(Error::NotConverged(IterationError::NotConverged { .. } | IterationError::Unstable { .. })) => Ok(None),
-        Err(error) => Err(error),
+    if let Some(((name, _), off)) = parts.iter().zip(&probe.bridge).find(|(_, off)| is_lie(**off)) {
+        return Err(Error::Lies(format!("{name}: {}", lie(*off))));
     }
+    let problem = |((name, part), response): (&(String, Assigned), &Response)| {
+        let verdict = response.verdict()?;
+        Some(format!("{name}: {}", part.says(&verdict, response)))
+    };
+    let problems: Vec<String> = parts.iter().zip(&probe.responses).filter_map(problem).collect();
+    if problems.is_empty() {
+        return Ok(());
+    }
+    Err(Error::Input(format!(
+        "{}\nTrial forces before the first step show this. Factors are those of the map: their value = factor · ours in N, m, \
+         m/s, down positive (--map, docs/guide/bridges.md). If all is as it should be: --no-probe.",
+        problems.join("\n")
+    )))
 }
 
-/// The outputs of one FMU.
-struct Side {
-    references: Vec<u32>,
-    row: Vec<f64>,
-    seen: Vec<Seen>,
+fn lie(off: f64) -> String {
+    format!(
+        "it says that it can save and restore its state (canGetAndSetFMUstate), but a step repeated from a restored state \
+         differs by {off:.1e} of what other forces change"
+    )
 }
 
-impl Side {
-    fn new(fmu: &mut FmuSubsystem, at_times: bool) -> Self {
-        let outputs = fmu.instance().description().with_causality("output");
-        // Not what is no peak: places, and the work of a step, which is the less the shorter the step.
-        let reported = |name: &str| !name.starts_with("support[") && !name.ends_with(".position") && name != WORK;
-        let reported = outputs.filter(|v| v.kind == VariableType::Real && reported(&v.name));
-        let none = [f64::INFINITY, f64::NEG_INFINITY];
-        let (references, seen): (Vec<u32>, Vec<Seen>) = reported
-            .map(|v| {
-                let history = (at_times && !v.name.ends_with(".peak_acceleration")).then(Vec::new);
-                (v.value_reference, Seen { name: v.name.clone(), range: none, history })
-            })
-            .unzip();
-        Self { row: vec![0.0; references.len()], references, seen }
+impl Assigned {
+    /// Variables of a series: force, displacement, velocity.
+    fn first(&self, key: &str) -> (&str, f64) {
+        let (ends, at) = match key {
+            "force" => (&self.forces_in, 0),
+            "displacement" => (&self.motions_out, 0),
+            _ => (&self.motions_out, self.motions_out.names.len() / 2),
+        };
+        let (name, line) = (&ends.names[at], ends.lines[at]);
+        (name, if key == "force" { line.factor } else { line.factor.recip() })
     }
 
-    fn update(&mut self, fmu: &mut FmuSubsystem) -> Result<(), Error> {
-        fmu.read(&self.references, &mut self.row).map_err(|e| Error::Fmu(e.to_string()))?;
-        for (seen, value) in self.seen.iter_mut().zip(&self.row) {
-            let [low, high] = &mut seen.range;
-            (*low, *high) = (low.min(*value), high.max(*value));
-            seen.history.iter_mut().for_each(|history| history.push(*value));
+    /// The factor that makes values `excess` times larger ones right.
+    fn mend(&self, key: &str, excess: f64) -> String {
+        if key == "velocity" && !self.velocities {
+            return "none to velocity, which follows from displacement".into();
         }
-        Ok(())
+        let (name, factor) = self.first(key);
+        format!("\"{key}\" ({name} …): \"factor\": {:e}{}", factor * excess, unit(key, excess))
+    }
+
+    /// What a verdict means for its variables.
+    fn says(&self, verdict: &Verdict, response: &Response) -> String {
+        const MOTIONS: [&str; 2] = ["displacement", "velocity"];
+        let number = |i: usize| i + 1;
+        let seen = || format!("the deck answers as if it had {:.2e} kg under each support", response.mass[0].abs());
+        match *verdict {
+            Verdict::Still(which) => {
+                let key = if self.velocities { MOTIONS[which] } else { MOTIONS[0] };
+                let (motion, force) = (self.first(key).0, self.first("force").0);
+                format!("{motion} and the like do not move under forces on {force} and the like")
+            }
+            Verdict::Together(excess) => {
+                let what = match (excess < 0.0, excess.abs() == 1.0) {
+                    (true, true) => "the deck moves against the forces".to_string(),
+                    (true, false) => format!("the deck moves against the forces, and {}", seen()),
+                    _ => seen(),
+                };
+                let [d, v] = MOTIONS.map(|key| self.mend(key, excess));
+                let also = if self.velocities { format!(" and {v}") } else { String::new() };
+                format!("{what}; give {}; or else {d}{also}", self.mend("force", excess.recip()))
+            }
+            Verdict::Alone(which, excess) => {
+                let how = if excess == -1.0 {
+                    "has the opposite sign of".to_string()
+                } else {
+                    format!("is {excess:e} times what would belong to")
+                };
+                format!(
+                    "the {} {how} the {}; give {}",
+                    MOTIONS[which],
+                    MOTIONS[1 - which],
+                    self.mend(MOTIONS[which], excess)
+                )
+            }
+            Verdict::OneOf(excess) => format!(
+                "displacement and velocity do not belong together: the displacement is {excess:e} times the integral of the \
+                 velocity; give {}, or {}",
+                self.mend(MOTIONS[0], excess),
+                self.mend(MOTIONS[1], excess.recip())
+            ),
+            Verdict::Against(i) => format!(
+                "the displacement at support {} goes against a force there, at other supports it does not",
+                number(i)
+            ),
+            Verdict::Mixed(i, j) => format!(
+                "a force at support {0} moves the deck at support {1}, and one at support {1} moves it at support {0}, as on no \
+                 deck: forces and motions are not in the same order, or do not begin at the same number (\"first\")",
+                number(i),
+                number(j)
+            ),
+        }
+    }
+}
+
+/// What a factor suggests.
+fn unit(key: &str, excess: f64) -> &'static str {
+    match (key, excess.abs()) {
+        ("force", 1e-3) => " (kN?)",
+        ("displacement", 1e3) => " (mm?)",
+        ("velocity", 1e3) => " (mm/s?)",
+        _ => "",
     }
 }

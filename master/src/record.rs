@@ -12,6 +12,7 @@ use ttb_coupling::StepInfo;
 use ttb_coupling::iteration::Outcome;
 use ttb_fmi2::import::{FmuSubsystem, ModelDescription, VariableType};
 
+use crate::connect::BridgeSide;
 use crate::error::Error;
 
 /// How numbers are written: a few times faster than the standard library, and a row has dozens of them.
@@ -50,7 +51,8 @@ pub struct Recorder {
     pub columns: Vec<Column>,
     /// Their present values.
     pub row: Vec<f64>,
-    references: [Vec<u32>; 2],
+    /// Of the train–track FMU, then of every bridge.
+    references: Vec<Vec<u32>>,
     results: Table,
     iterations: Table,
     every: u64,
@@ -62,19 +64,24 @@ impl Recorder {
     pub fn new(
         folder: &Path,
         train_track: &mut FmuSubsystem,
-        bridge: &mut FmuSubsystem,
+        bridge: &mut BridgeSide,
         supports: bool,
         every: usize,
         last: u64,
     ) -> Result<Self, Error> {
         let mut columns = Vec::new();
-        let name = bridge.instance().name().to_string();
-        let references = [train_track, bridge].map(|fmu| outputs(fmu.instance().description(), supports, &mut columns));
-        // Foreign FMUs may both have an output of some name.
-        let (first, second) = columns.split_at_mut(references[0].len());
-        let taken: HashSet<&str> = first.iter().map(|c| c.name.as_str()).collect();
-        for column in second.iter_mut().filter(|c| taken.contains(c.name.as_str())) {
-            column.name = format!("{name}.{}", column.name);
+        let mut references = vec![outputs(train_track.instance().description(), supports, &mut columns)];
+        let several = bridge.ranges().len() > 1;
+        for part in bridge.parts() {
+            let instance = part.inner().instance();
+            let known = columns.len();
+            references.push(outputs(instance.description(), supports, &mut columns));
+            // Several bridges may have outputs of one name; so may foreign FMUs on either side.
+            let (others, own) = columns.split_at_mut(known);
+            let taken: HashSet<&str> = others.iter().map(|c| c.name.as_str()).collect();
+            for column in own.iter_mut().filter(|c| several || taken.contains(c.name.as_str())) {
+                column.name = format!("{}.{}", instance.name(), column.name);
+            }
         }
         let names = columns.iter().map(|c| c.name.as_str());
         let results = Table::create(&folder.join("results.csv"), std::iter::once("time").chain(names))?;
@@ -86,13 +93,18 @@ impl Recorder {
     pub fn record(
         &mut self,
         train_track: &mut FmuSubsystem,
-        bridge: &mut FmuSubsystem,
+        bridge: &mut BridgeSide,
         n: u64,
         t: f64,
     ) -> Result<(), Error> {
-        let (first, second) = self.row.split_at_mut(self.references[0].len());
-        train_track.read(&self.references[0], first).map_err(|e| Error::Fmu(e.to_string()))?;
-        bridge.read(&self.references[1], second).map_err(|e| Error::Fmu(e.to_string()))?;
+        let failed = |e: ttb_coupling::Failure| Error::Fmu(e.to_string());
+        let (first, mut rest) = self.row.split_at_mut(self.references[0].len());
+        train_track.read(&self.references[0], first).map_err(failed)?;
+        for (part, references) in bridge.parts().zip(&self.references[1..]) {
+            let (own, others) = rest.split_at_mut(references.len());
+            part.inner().read(references, own).map_err(failed)?;
+            rest = others;
+        }
         if n.is_multiple_of(self.every) || n == self.last {
             self.results.number(t);
             self.row.iter().for_each(|x| self.results.number(*x));

@@ -13,7 +13,7 @@ use ttb_fmi2::import::FmuSubsystem;
 use crate::auto;
 use crate::build;
 use crate::cli::Run;
-use crate::connect::{Connected, connect};
+use crate::connect::{BridgeSide, Connected, Given, connect};
 use crate::coupled::CouplingReport;
 use crate::error::Error;
 use crate::isolate::Isolated;
@@ -21,6 +21,8 @@ use crate::job::Job;
 use crate::map::Map;
 use crate::peaks::Peaks;
 use crate::plot::Plot;
+use crate::preload;
+use crate::probe::judge;
 use crate::record::Recorder;
 use crate::summary::{Iterations, Seconds, Summary};
 use crate::system::{Opened, is_system};
@@ -31,6 +33,7 @@ const PROGRESS: u64 = 50;
 /// The command.
 pub fn run(arguments: &Run) -> Result<(), Error> {
     let isolated = Isolated::new(arguments)?;
+    preload::load(&arguments.preload)?;
     let done = match arguments.scenario.as_deref().filter(|path| is_system(path)) {
         Some(path) => run_system(path, arguments, &isolated),
         None => run_scenario(arguments, &isolated),
@@ -40,53 +43,94 @@ pub fn run(arguments: &Run) -> Result<(), Error> {
 
 fn run_scenario(arguments: &Run, isolated: &Isolated) -> Result<(), Error> {
     let mut checked = build::scenario(arguments.scenario.as_deref())?;
-    for given in [&arguments.train_track, &arguments.bridge].into_iter().flatten() {
+    for given in arguments.train_track.iter().chain(&arguments.bridge) {
         std::fs::File::open(given).map_err(|e| Error::Input(format!("{}: {e}", given.display())))?;
     }
-    let map = arguments.map.as_deref().map(Map::load).transpose()?;
+    let maps = arguments.map.iter().map(|path| Map::load(path)).collect::<Result<Vec<_>, _>>()?;
+    if maps.len() > 1 && maps.len() != arguments.bridge.len() {
+        let (maps, bridges) = (maps.len(), arguments.bridge.len());
+        return Err(Error::Input(format!(
+            "{bridges} bridges and {maps} maps: give one for all, or one for each in the same order"
+        )));
+    }
     if arguments.train_track.is_some() && checked.scenario.time.step.given().is_none() {
         return Err(Error::Input("a step is chosen for our train and track: with --train-track give time.step".into()));
     }
-    let choice = auto::choose(&mut checked, arguments.bridge.as_deref(), isolated, map.as_ref())?;
+    let map = |k: usize| if maps.len() > 1 { maps.get(k) } else { maps.first() };
+    let given: Vec<Given> = arguments.bridge.iter().enumerate().map(|(k, path)| Given { path, map: map(k) }).collect();
+    let choice = auto::choose(&mut checked, &given, isolated)?;
     let folder = &arguments.output;
     std::fs::create_dir_all(folder).map_err(Error::io(folder))?;
     let train_track = arguments.train_track.clone().map_or_else(|| build::train_track(&checked, folder), Ok)?;
-    let bridge = arguments.bridge.clone().map_or_else(|| build::bridge(&checked, folder), Ok)?;
-    let (stop, begin) = (stop_on_interrupt(), Instant::now());
-    let connected = connect(&train_track, &bridge, &checked, isolated, map.as_ref())?;
-    for warning in &connected.warnings[checked.warnings.len()..] {
-        eprintln!("ttb: warning: {warning}");
+    let mut bridges = arguments.bridge.clone();
+    if bridges.is_empty() {
+        bridges.push(build::bridge(&checked, folder)?);
     }
-    run_connected(&Job::new(&checked, choice), connected, arguments, &stop, begin)
+    let bridges: Vec<Given> = bridges.iter().enumerate().map(|(k, path)| Given { path, map: map(k) }).collect();
+    let (stop, begin) = (stop_on_interrupt(), Instant::now());
+    let told = checked.warnings.len();
+    let job = Job::new(&checked, choice);
+    run_trusting(
+        |trusted| connect(&train_track, &bridges, &checked, isolated, trusted),
+        |connected| {
+            warn(&connected.warnings[told..]);
+            run_connected(&job, connected, arguments, &stop, begin)
+        },
+    )
+}
+
+/// Runs with bridges as they describe themselves; should it turn out that one does not roll back, once more with other
+/// instances, as ones that say so.
+fn run_trusting(
+    open: impl Fn(bool) -> Result<Connected, Error>,
+    run: impl Fn(&mut Connected) -> Result<(), Error>,
+) -> Result<(), Error> {
+    let mut first = open(true)?;
+    match run(&mut first) {
+        Err(Error::Lies(text)) => {
+            // Not unloaded before the others, if it may stay: NumPy, for one, cannot be loaded twice.
+            let _stays = first.several.then_some(first);
+            let mut second = open(false)?;
+            second.warnings.push(text);
+            run(&mut second)
+        }
+        done => done,
+    }
+}
+
+fn warn(warnings: &[String]) {
+    warnings.iter().for_each(|warning| eprintln!("ttb: warning: {warning}"));
 }
 
 fn run_system(path: &Path, arguments: &Run, isolated: &Isolated) -> Result<(), Error> {
-    if arguments.train_track.is_some() || arguments.bridge.is_some() {
+    if arguments.train_track.is_some() || !arguments.bridge.is_empty() {
         return Err(Error::Input(
             "--train-track and --bridge belong to a scenario; an .ssp file names its FMUs itself".into(),
         ));
     }
     let (stop, begin) = (stop_on_interrupt(), Instant::now());
     let opened = Opened::open(path, isolated)?;
-    let connected = opened.connect()?;
-    for warning in &connected.warnings {
-        eprintln!("ttb: warning: {warning}");
-    }
-    std::fs::create_dir_all(&arguments.output).map_err(Error::io(&arguments.output))?;
-    run_connected(&opened.job, connected, arguments, &stop, begin)
+    run_trusting(
+        |trusted| opened.connect(isolated, trusted),
+        |connected| {
+            warn(&connected.warnings);
+            std::fs::create_dir_all(&arguments.output).map_err(Error::io(&arguments.output))?;
+            run_connected(&opened.job, connected, arguments, &stop, begin)
+        },
+    )
 }
 
 /// From initialization to the summary.
 fn run_connected(
     job: &Job,
-    mut connected: Connected,
+    connected: &mut Connected,
     arguments: &Run,
     stop: &AtomicBool,
     begin: Instant,
 ) -> Result<(), Error> {
     let folder = &arguments.output;
     let (axis, output) = (TimeAxis::new(job.step, job.end), job.output);
-    let Connected { train_track, bridge, .. } = &mut connected;
+    let Connected { train_track, bridge, .. } = &mut *connected;
     let recorder = Recorder::new(folder, train_track, bridge, output.supports, output.every, axis.steps())?;
     let mut log = Log {
         peaks: Peaks::new(&recorder),
@@ -99,13 +143,17 @@ fn run_connected(
         bar: progress_bar(axis.steps(), arguments.quiet),
     };
     let mut seconds = Seconds::default();
-    let outcome = simulate(&mut connected, axis, &mut log, stop, begin, &mut seconds);
+    let begun = initialise(connected, axis, &mut log, !arguments.no_probe);
+    let outcome = begun.and_then(|()| simulate(connected, axis, &mut log, stop, begin, &mut seconds));
     log.bar.finish_and_clear();
+    if matches!(outcome, Err(Error::Lies(_))) {
+        return outcome;
+    }
     let outcome = outcome.and(log.recorder.flush());
     if let Some(choice) = &job.choice {
         log.peaks.estimate(choice);
     }
-    finish(job, &log, outcome, seconds, &connected, folder, arguments.quiet)
+    finish(job, &log, outcome, seconds, connected, folder, arguments.quiet)
 }
 
 /// Results of a run as they come.
@@ -125,7 +173,7 @@ impl Log {
     fn step(
         &mut self,
         train_track: &mut FmuSubsystem,
-        bridge: &mut FmuSubsystem,
+        bridge: &mut BridgeSide,
         n: u64,
         t: f64,
         h: f64,
@@ -141,6 +189,19 @@ impl Log {
     }
 }
 
+/// Static equilibrium; its row; what trial steps show.
+fn initialise(connected: &mut Connected, axis: TimeAxis, log: &mut Log, probe: bool) -> Result<(), Error> {
+    let Connected { train_track, bridge, coupling, .. } = connected;
+    coupling.initialise(train_track, bridge, 0.0)?;
+    log.step(train_track, bridge, 0, 0.0, 0.0)?;
+    if probe {
+        let groups = bridge.ranges();
+        connected.probe = coupling.probe(train_track, bridge, &groups, axis)?;
+        judge(&connected.probe, train_track.instance().name(), &connected.parts)?;
+    }
+    Ok(())
+}
+
 fn simulate(
     connected: &mut Connected,
     axis: TimeAxis,
@@ -150,22 +211,19 @@ fn simulate(
     seconds: &mut Seconds,
 ) -> Result<(), Error> {
     let Connected { train_track, bridge, coupling, .. } = connected;
-    coupling.initialise(train_track, bridge, 0.0)?;
-    log.step(train_track, bridge, 0, 0.0, 0.0)?;
-    let inside = |fmu: &mut FmuSubsystem| fmu.instance().tally().time.as_secs_f64();
-    let before = [inside(train_track), inside(bridge)];
+    let before = [inside(train_track), inside_all(bridge)];
     seconds.initialization = begin.elapsed().as_secs_f64();
     let begin = Instant::now();
     let mut reading = [0.0; 2];
     log.mark = begin;
     let ended = run_steps(coupling, train_track, bridge, axis, |train_track, bridge, n, t, info| {
         let stepped = Instant::now();
-        let inside_before = [inside(train_track), inside(bridge)];
+        let inside_before = [inside(train_track), inside_all(bridge)];
         log.iterations.count(info);
         log.recorder.iteration(t, info, (stepped - log.mark).as_secs_f64())?;
         log.step(train_track, bridge, n, t, axis.size(n - 1))?;
         reading[0] += inside(train_track) - inside_before[0];
-        reading[1] += inside(bridge) - inside_before[1];
+        reading[1] += inside_all(bridge) - inside_before[1];
         log.mark = Instant::now();
         log.recording += (log.mark - stepped).as_secs_f64();
         Ok::<_, Error>(if stop.load(Ordering::Relaxed) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) })
@@ -173,9 +231,18 @@ fn simulate(
     seconds.stepping = begin.elapsed().as_secs_f64();
     seconds.recording = log.recording;
     seconds.train_track = inside(train_track) - before[0] - reading[0];
-    seconds.bridge = inside(bridge) - before[1] - reading[1];
+    seconds.bridge = inside_all(bridge) - before[1] - reading[1];
     seconds.master = seconds.stepping - seconds.recording - seconds.train_track - seconds.bridge;
     if ended?.is_break() { Err(Error::Interrupted) } else { Ok(()) }
+}
+
+/// Seconds spent inside an FMU so far.
+fn inside(fmu: &mut FmuSubsystem) -> f64 {
+    fmu.instance().tally().time.as_secs_f64()
+}
+
+fn inside_all(bridge: &mut BridgeSide) -> f64 {
+    bridge.parts().map(|part| inside(part.inner())).sum()
 }
 
 /// Summary and picture, also of a run that failed; its error is passed on.
@@ -188,7 +255,7 @@ fn finish(
     folder: &Path,
     quiet: bool,
 ) -> Result<(), Error> {
-    let coupling = CouplingReport::new(&connected.coupling);
+    let coupling = CouplingReport::new(&connected.coupling, &connected.probe);
     let (iterations, warnings) = (&log.iterations, &connected.warnings);
     let summary = Summary::new(job, &outcome, log.reached, iterations, coupling, seconds, warnings, &log.peaks);
     let written = summary.write(&folder.join("summary.json"));
@@ -202,7 +269,7 @@ fn finish(
 }
 
 /// Set by Ctrl-C; the run then ends after the step it is in. A second Ctrl-C ends the program at once.
-fn stop_on_interrupt() -> Arc<AtomicBool> {
+pub fn stop_on_interrupt() -> Arc<AtomicBool> {
     let stop = Arc::new(AtomicBool::new(false));
     let flag = Arc::clone(&stop);
     // Without a handler Ctrl-C ends the program at once: no reason not to run.
@@ -217,9 +284,9 @@ fn stop_on_interrupt() -> Arc<AtomicBool> {
 }
 
 /// A progress bar on a terminal, nothing elsewhere.
-fn progress_bar(steps: u64, quiet: bool) -> ProgressBar {
+pub fn progress_bar(steps: u64, quiet: bool) -> ProgressBar {
     let target = if quiet { ProgressDrawTarget::hidden() } else { ProgressDrawTarget::stderr() };
     let bar = ProgressBar::with_draw_target(Some(steps), target);
-    let style = ProgressStyle::with_template("{bar:40} {pos}/{len} steps, {eta} left");
+    let style = ProgressStyle::with_template("{prefix}{bar:40} {pos}/{len} steps, {eta} left");
     bar.with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))
 }

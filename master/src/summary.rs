@@ -183,7 +183,7 @@ impl<'a> Summary<'a> {
         if i.not_converged > 0 {
             say!("  NOT CONVERGED   {} of {} steps were accepted all the same", i.not_converged, i.steps);
         }
-        for peak in self.peaks.iter().filter(|p| p.name.starts_with("point[")) {
+        for peak in self.peaks.iter().filter(|p| p.name.contains("point[")) {
             let (factor, unit) = readable(&peak.unit);
             let (low, high) = (&peak.min, &peak.max);
             say!(

@@ -182,7 +182,7 @@ LIBRARIES = [
     Fault("prints", {"prints"}, 0, defines=["PRINTS"]),
     Fault("prints errors", {"prints"}, 0, defines=["STDERR_CHATTER"]),
     Fault("writes files", {"writes-files"}, 0, defines=["WRITES_FILE"]),
-    Fault("state in a global", {"instances", "not-repeatable"}, None, defines=["STATIC_STATE"]),
+    Fault("state in a global", {"instances", "not-repeatable"}, 0, defines=["STATIC_STATE"]),
     Fault("reset keeps something", {"reset"}, 0, defines=["RESET_KEEPS"]),
     Fault("memory grows", {"memory-growth"}, 0, defines=["LEAKS"]),
     Fault("states leak", {"state-leak"}, 0, defines=["STATE_LEAK"]),
@@ -207,17 +207,17 @@ STEPS = [
 
 # Faults of states and derivatives.
 STATES = [
-    Fault("set does nothing", {"roll-back", "derivatives", "serialize"}, None, defines=["SET_NOTHING"]),
-    Fault("set forgets the velocity", {"roll-back", "derivatives", "serialize"}, None, defines=["SET_FORGETS_VELOCITY"]),
+    Fault("set does nothing", {"roll-back", "derivatives", "serialize"}, 0, says="a step repeated from a restored state differs", defines=["SET_NOTHING"]),
+    Fault("set forgets the velocity", {"roll-back", "derivatives", "serialize"}, 0, says="a step repeated from a restored state differs", defines=["SET_FORGETS_VELOCITY"]),
     Fault("set forgets the inputs", {"roll-back-inputs"}, 0, defines=["SET_FORGETS_INPUTS"]),
-    Fault("set forgets something hidden", {"roll-back", "derivatives", "serialize"}, None, defines=["HISTORY"]),
+    Fault("set forgets something hidden", {"roll-back", "derivatives", "serialize"}, 0, says="a step repeated from a restored state differs", defines=["HISTORY"]),
     Fault("set works for near states", {"roll-back-later", "roll-back-inputs"}, 0, defines=["SET_ONLY_NEAR"]),
     Fault("get refuses", {"failed"}, says="no room", defines=["GET_STATE_ERROR"]),
-    Fault("get disturbs", {"roll-back-save", "roll-back-first"}, None, defines=["SAVE_DISTURBS"]),
+    Fault("get disturbs", {"roll-back-save", "roll-back-first"}, 0, defines=["SAVE_DISTURBS"]),
     Fault("a serialized state too small", {"serialize"}, 0, defines=["SERIALIZED_TOO_SMALL"]),
     Fault("a serialized state without motion", {"serialize"}, 0, defines=["SERIALIZED_WITHOUT_MOTION"]),
-    Fault("wrong derivatives", {"derivatives"}, None, defines=["WRONG_DERIVATIVES"]),
-    Fault("derivatives of wrong sign", {"derivatives"}, None, defines=["WRONG_SIGN_DERIVATIVES"]),
+    Fault("wrong derivatives", {"derivatives"}, 0, defines=["WRONG_DERIVATIVES"]),
+    Fault("derivatives of wrong sign", {"derivatives"}, 0, defines=["WRONG_SIGN_DERIVATIVES"]),
 ]
 
 ALL = ARCHIVE + LIBRARIES + STEPS + STATES

@@ -4,6 +4,7 @@
 use std::collections::HashMap;
 use std::process::Command;
 
+use ttb_record::Table as Record;
 use ttb_scenario::Checked;
 use ttb_tests::{Table, example, examples, library_run, ttb};
 
@@ -15,20 +16,22 @@ struct Printed {
     wheel: [f64; 2],
 }
 
-fn check(table: &Table, printed: &Printed) {
-    let near = |what: &str, computed: f64, printed: f64, tolerance: f64| {
-        assert!((computed / printed - 1.0).abs() < tolerance, "{what}: {computed}, printed {printed}");
-    };
-    near("displacement", 1e3 * table.range("point[mid].displacement").1, printed.displacement, 2e-4);
+fn check(case: &str, table: &Table, printed: &Printed) {
+    let source = "two independent programs that agree on every printed digit (docs/theory.md 15)";
+    let mut record = Record::new(&format!("R1, {case}"), source, "-p ttb-tests --test r1");
+    let mut near =
+        |what: &str, computed: f64, printed: f64, tolerance: f64| record.row(what, printed, computed, tolerance);
+    near("mid-span displacement, mm", 1e3 * table.range("point[mid].displacement").1, printed.displacement, 2e-4);
     let (low, high) = table.range("point[mid].acceleration");
-    near("acceleration +", high, printed.acceleration[0], 2e-3);
-    near("acceleration -", low, printed.acceleration[1], 2e-3);
+    near("mid-span acceleration, greatest, m/s²", high, printed.acceleration[0], 2e-3);
+    near("mid-span acceleration, least, m/s²", low, printed.acceleration[1], 2e-3);
     let (low, high) = table.range("car[1].acceleration");
-    near("car +", high, printed.car[0], 2e-3);
-    near("car -", low, printed.car[1], 2e-3);
+    near("car body acceleration, greatest, m/s²", high, printed.car[0], 2e-3);
+    near("car body acceleration, least, m/s²", low, printed.car[1], 2e-3);
     let (low, high) = table.range("wheel[1].contact_force");
-    near("wheel min", low / 1e3, printed.wheel[0], 2e-4);
-    near("wheel max", high / 1e3, printed.wheel[1], 2e-4);
+    near("front wheelset, least force, kN", low / 1e3, printed.wheel[0], 2e-4);
+    near("front wheelset, greatest force, kN", high / 1e3, printed.wheel[1], 2e-4);
+    record.finish();
 }
 
 fn with_step(name: &str, step: f64) -> Checked {
@@ -41,6 +44,7 @@ fn with_step(name: &str, step: f64) -> Checked {
 fn irregular_at_1_ms() {
     let table = library_run(&with_step("r1.json", 1e-3));
     check(
+        "irregular, 1 ms",
         &table,
         &Printed {
             displacement: 0.65235,
@@ -55,6 +59,7 @@ fn irregular_at_1_ms() {
 fn irregular_at_50_us() {
     let table = library_run(&with_step("r1.json", 5e-5));
     check(
+        "irregular, 0.05 ms",
         &table,
         &Printed {
             displacement: 0.65229,
@@ -69,6 +74,7 @@ fn irregular_at_50_us() {
 fn smooth_at_50_us() {
     let table = library_run(&with_step("r1-smooth.json", 5e-5));
     check(
+        "smooth, 0.05 ms",
         &table,
         &Printed {
             displacement: 0.65260,
@@ -83,6 +89,7 @@ fn smooth_at_50_us() {
 fn linear_hertz_at_50_us() {
     let table = library_run(&with_step("r1-linear.json", 5e-5));
     check(
+        "linear contact, 0.05 ms",
         &table,
         &Printed {
             displacement: 0.65229,

@@ -7,6 +7,7 @@
 
 use std::path::Path;
 
+use ttb_record::Table;
 use ttb_tests::library_run;
 
 const SCENARIO: &str = r#"{
@@ -46,6 +47,9 @@ fn a_sprung_mass_deflects_the_beam_as_published() {
     let mid = table.column("point[mid].displacement");
     let peak = (0..mid.len()).max_by(|a, b| mid[*a].total_cmp(&mid[*b])).expect("rows");
     let (millimetres, seconds) = (1e3 * mid[peak], table.time[peak]);
-    assert!((millimetres / 2.40730 - 1.0).abs() < 5e-3, "{millimetres} mm");
-    assert!((seconds / 0.3710 - 1.0).abs() < 0.02, "{seconds} s");
+    let source = "Yang and Yau, J. Struct. Eng. 123, 1997; series of 20 modes";
+    let mut record = Table::new("sprung mass over a beam of 25 m", source, "-p ttb-tests --test sprung_mass");
+    record.row("peak, mm", 2.40730, millimetres, 5e-3);
+    record.row("its time, s", 0.3710, seconds, 0.02);
+    record.finish();
 }

@@ -4,8 +4,9 @@ use std::f64::consts::PI;
 
 use ttb_elements::{Beam3, BeamSection, Truss3};
 
+use crate::COMMAND;
 use crate::structure::*;
-use crate::table::{Table, order};
+use ttb_record::{Table, order};
 
 const LENGTH: f64 = 8.0;
 /// Axes 1, 2, 3 of the inclined beam are x, y, z turned.
@@ -46,7 +47,7 @@ fn along_x(n: usize, section: BeamSection, hold: &[usize], ends: &[usize]) -> St
 /// Method, 1973).
 #[test]
 fn euler_bernoulli_frequencies() {
-    let mut table = Table::new("Euler–Bernoulli beam, simply supported", "closed form; rad/s");
+    let mut table = Table::new("Euler–Bernoulli beam, simply supported", "closed form; rad/s", COMMAND);
     for (name, inertia, hold, across) in
         [("1–3", SECTION.inertia_2, [X, Y, RX, RZ], Z), ("1–2", SECTION.inertia_3, [X, Z, RX, RY], Y)]
     {
@@ -68,7 +69,7 @@ fn euler_bernoulli_frequencies() {
 /// Errors fall with h²: the shapes hold the shear strain constant in each element.
 #[test]
 fn timoshenko_frequencies() {
-    let mut table = Table::new("Timoshenko beam, simply supported", "closed form; rad/s");
+    let mut table = Table::new("Timoshenko beam, simply supported", "closed form; rad/s", COMMAND);
     for (name, inertia, area, hold, across) in
         [("1–3", THICK.inertia_2, 0.03, [X, Y, RX, RZ], Z), ("1–2", THICK.inertia_3, 0.04, [X, Z, RX, RY], Y)]
     {
@@ -90,7 +91,7 @@ fn timoshenko_frequencies() {
 /// Fixed–free: ω = (2j − 1)π/(2l) √(E/ρ) along, √(GJ/(ρ(I₂+I₃))) about; errors fall with h².
 #[test]
 fn axial_and_torsional_frequencies() {
-    let mut table = Table::new("bar and shaft, fixed–free", "closed form; rad/s");
+    let mut table = Table::new("bar and shaft, fixed–free", "closed form; rad/s", COMMAND);
     let wave = [(2.1e11_f64 / 7850.0).sqrt(), (8e10_f64 * 6e-4 / (7850.0 * 1.6e-3)).sqrt()];
     for (name, hold, wave) in [("axial", [Y, Z, RX, RY, RZ], wave[0]), ("torsion", [X, Y, Z, RY, RZ], wave[1])] {
         let computed = |n| {
@@ -112,7 +113,7 @@ fn axial_and_torsional_frequencies() {
 /// A cantilever inclined in space, nothing held but its root: (1.875104², 4.694091²)/l² √(EI/m) in both planes.
 #[test]
 fn inclined_cantilever_frequencies() {
-    let mut table = Table::new("inclined cantilever", "closed form (Blevins 1979, table 8-1); rad/s");
+    let mut table = Table::new("inclined cantilever", "closed form (Blevins 1979, table 8-1); rad/s", COMMAND);
     let mut s = beam(16, [2.0 / 3.0, -1.0 / 3.0, 2.0 / 3.0], [0.3, 0.9, 0.1], SECTION);
     s.hold(|p| p[0] == 0.0, &ALL);
     let computed = s.frequencies(4);
@@ -130,7 +131,7 @@ fn inclined_cantilever_frequencies() {
 /// Tip of a cantilever: P l³/(3EI) + P l/(κGA), exact with one element.
 #[test]
 fn timoshenko_cantilever() {
-    let mut table = Table::new("Timoshenko cantilever, tip deflection", "closed form; m");
+    let mut table = Table::new("Timoshenko cantilever, tip deflection", "closed form; m", COMMAND);
     for (motion, inertia, area) in [(Y, THICK.inertia_3, 0.04), (Z, THICK.inertia_2, 0.03)] {
         for n in [1, 5] {
             let mut s = beam(n, [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], THICK);
@@ -151,7 +152,7 @@ fn timoshenko_cantilever() {
 /// ```
 #[test]
 fn cable_stiffness() {
-    let mut table = Table::new("cable: Ernst's modulus against the elastic catenary", "Irvine 1981; N/m");
+    let mut table = Table::new("cable: Ernst's modulus against the elastic catenary", "Irvine 1981; N/m", COMMAND);
     let (modulus, area, mass, unstressed): (f64, f64, f64, f64) = (1.65e11, 5e-3, 39.25, 150.0);
     let w = mass * ttb_dynamics::frame::GRAVITY;
     for stress in [1e8, 2e8, 4e8] {

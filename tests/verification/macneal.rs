@@ -3,8 +3,9 @@
 
 use ttb_elements::Plate;
 
+use crate::COMMAND;
 use crate::structure::*;
-use crate::table::Table;
+use ttb_record::Table;
 
 const SHAPES: [Shape; 3] = [Shape::Quad, Shape::Triangle, Shape::OtherTriangle];
 
@@ -51,7 +52,8 @@ fn pull(s: &mut Structure, motion: usize) {
 /// on slanted meshes is reported only; there a mesh four times as fine each way has to reach grade B.
 #[test]
 fn straight_cantilever() {
-    let mut table = Table::new("straight cantilever, 6 × 1", "MacNeal & Harder 1985; unit force at the tip, m");
+    let mut table =
+        Table::new("straight cantilever, 6 × 1", "MacNeal & Harder 1985; unit force at the tip, m", COMMAND);
     for shape in SHAPES {
         for mesh in [Mesh::Regular, Mesh::Trapezoid, Mesh::Parallelogram] {
             for (motion, name, expected) in
@@ -82,7 +84,8 @@ fn straight_cantilever() {
 /// once elements are smaller than the thickness. (MacNeal & Harder print 0.03208.)
 #[test]
 fn straight_cantilever_twist() {
-    let mut table = Table::new("straight cantilever, unit torque", "Kirchhoff plate; St Venant's torsion; rad");
+    let mut table =
+        Table::new("straight cantilever, unit torque", "Kirchhoff plate; St Venant's torsion; rad", COMMAND);
     let (shear, wt3) = (1e7 / 2.6, 0.2 * 1e-3);
     for shape in SHAPES {
         for mesh in [Mesh::Regular, Mesh::Trapezoid, Mesh::Parallelogram] {
@@ -110,7 +113,7 @@ fn straight_cantilever_twist() {
 /// Quarter of a ring, radii 4.12 and 4.32, thickness 0.1. Out of plane the ring twists: see the straight cantilever.
 #[test]
 fn curved_beam() {
-    let mut table = Table::new("curved beam", "MacNeal & Harder 1985; unit force at the tip, m");
+    let mut table = Table::new("curved beam", "MacNeal & Harder 1985; unit force at the tip, m", COMMAND);
     let plate = Plate { modulus: 1e7, poisson: 0.25, thickness: 0.1, mass: 0.0 };
     for shape in SHAPES {
         let moved = |motion: usize, cells: [usize; 2]| {
@@ -139,7 +142,7 @@ fn curved_beam() {
 /// 73, 1989, 53–92) 0.05.
 #[test]
 fn twisted_beam() {
-    let mut table = Table::new("twisted beam", "MacNeal & Harder 1985; Simo, Fox & Rifai 1989");
+    let mut table = Table::new("twisted beam", "MacNeal & Harder 1985; Simo, Fox & Rifai 1989", COMMAND);
     for shape in SHAPES {
         for (thickness, values) in [(0.32, [5.424e-3, 1.754e-3]), (0.05, [1.390, 0.3431])] {
             for (motion, expected) in [(Z, values[0]), (Y, values[1])] {
@@ -176,7 +179,7 @@ fn twisted_beam() {
 /// Quarter of a plate a = 2, b = 2 or 10, t = 1e-4, q = 1e-4 or P = 4e-4; the mesh is N × N.
 #[test]
 fn rectangular_plate() {
-    let mut table = Table::new("rectangular plate", "MacNeal & Harder 1985");
+    let mut table = Table::new("rectangular plate", "MacNeal & Harder 1985", COMMAND);
     let plate = Plate { modulus: 1.7472e7, poisson: 0.3, thickness: 1e-4, mass: 1.0 };
     for shape in SHAPES {
         let cases = [

@@ -6,4 +6,6 @@ mod patch;
 mod plates;
 mod shells;
 mod structure;
-mod table;
+
+/// What runs these tests.
+const COMMAND: &str = "-p ttb-tests --test verification";

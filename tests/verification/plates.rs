@@ -4,8 +4,9 @@ use std::f64::consts::PI;
 
 use ttb_elements::Plate;
 
+use crate::COMMAND;
 use crate::structure::*;
-use crate::table::{Table, order};
+use ttb_record::{Table, order};
 
 const SHAPES: [Shape; 3] = [Shape::Quad, Shape::Triangle, Shape::OtherTriangle];
 const THIN: Plate = Plate { modulus: 2.1e11, poisson: 0.3, thickness: 1e-3, mass: 7.85 };
@@ -25,7 +26,7 @@ fn supported(shape: Shape, plate: Plate, n: usize, b: f64) -> Structure {
 /// Simply supported 1 × 1.5: ω = π² (i²/a² + j²/b²) √(D/(ρt)); the error falls with h².
 #[test]
 fn supported_plate_frequencies() {
-    let mut table = Table::new("simply supported plate 1 × 1.5, 16 × 16", "closed form (Leissa 1973); rad/s");
+    let mut table = Table::new("simply supported plate 1 × 1.5, 16 × 16", "closed form (Leissa 1973); rad/s", COMMAND);
     let wave = |i: f64, j: f64| PI * PI * (i * i + j * j / 2.25) * (rigidity(&THIN) / THIN.mass).sqrt();
     let mut exact = [wave(1.0, 1.0), wave(1.0, 2.0), wave(2.0, 1.0), wave(1.0, 3.0), wave(2.0, 2.0)];
     exact.sort_by(f64::total_cmp);
@@ -45,7 +46,7 @@ fn supported_plate_frequencies() {
 /// Ritz's upper bounds; also Barton 1951).
 #[test]
 fn cantilever_plate_frequencies() {
-    let mut table = Table::new("square cantilever plate, 16 × 16", "Leissa 1973; ω a² √(ρt/D)");
+    let mut table = Table::new("square cantilever plate, 16 × 16", "Leissa 1973; ω a² √(ρt/D)", COMMAND);
     for shape in SHAPES {
         let mut s = Structure::surface([16, 16], shape, THIN, |u, v| [u, v, 0.0]);
         s.hold(|_| true, &[X, Y, RZ]);
@@ -62,7 +63,8 @@ fn cantilever_plate_frequencies() {
 /// D k⁴ − ω² [ρt + k² (ρt³/12 + ρt D/(κGt))] + ω⁴ ρt³/12 ρt/(κGt) = 0.
 #[test]
 fn thick_plate_frequencies() {
-    let mut table = Table::new("thick simply supported plate, t/a = 0.1, 16 × 16", "Mindlin 1951, closed form; rad/s");
+    let mut table =
+        Table::new("thick simply supported plate, t/a = 0.1, 16 × 16", "Mindlin 1951, closed form; rad/s", COMMAND);
     let plate = Plate { modulus: 1.0, poisson: 0.3, thickness: 0.1, mass: 0.1 };
     let (d, shear) = (rigidity(&plate), 5.0 / 6.0 * 0.1 / 2.6);
     let (m, rotary) = (plate.mass, plate.mass * 0.01 / 12.0);
@@ -81,7 +83,7 @@ fn thick_plate_frequencies() {
 /// 2004, 757–765), a = 2: the error falls with h².
 #[test]
 fn plate_deflection_converges_with_h_squared() {
-    let mut table = Table::new("clamped square plate, uniform load", "Taylor & Govindjee 2004; m");
+    let mut table = Table::new("clamped square plate, uniform load", "Taylor & Govindjee 2004; m", COMMAND);
     let exact = 1.265_32e-3 * THIN.mass * 16.0 / rigidity(&THIN);
     for shape in SHAPES {
         let computed = |n| {

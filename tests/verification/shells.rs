@@ -4,8 +4,9 @@ use std::f64::consts::FRAC_PI_2;
 
 use ttb_elements::Plate;
 
+use crate::COMMAND;
 use crate::structure::*;
-use crate::table::{Table, order};
+use ttb_record::{Table, order};
 
 const SHAPES: [Shape; 3] = [Shape::Quad, Shape::Triangle, Shape::OtherTriangle];
 
@@ -30,7 +31,7 @@ fn roof(shape: Shape, n: usize, moments: bool) -> f64 {
 
 #[test]
 fn scordelis_lo_roof() {
-    let mut table = Table::new("Scordelis–Lo roof", "MacNeal & Harder 1985; a quarter");
+    let mut table = Table::new("Scordelis–Lo roof", "MacNeal & Harder 1985; a quarter", COMMAND);
     for shape in SHAPES {
         for n in [4, 8, 16, 32] {
             // Grade A of MacNeal & Harder is an error of at most 2 %.
@@ -54,6 +55,7 @@ fn pinched_cylinder() {
     let mut table = Table::new(
         "pinched cylinder with end diaphragms",
         "Lindberg, Olson & Cowper 1969: 1.8248e-5; with shear deformation slightly more",
+        COMMAND,
     );
     let plate = Plate { modulus: 3e6, poisson: 0.3, thickness: 3.0, mass: 0.0 };
     for shape in SHAPES {
@@ -79,7 +81,7 @@ fn pinched_cylinder() {
 /// R = 10, t = 0.04, hole of 18°, E = 6.825e7, ν = 0.3, F = 2; a quarter.
 #[test]
 fn hemisphere() {
-    let mut table = Table::new("hemisphere with 18° hole", "MacNeal & Harder 1985; a quarter");
+    let mut table = Table::new("hemisphere with 18° hole", "MacNeal & Harder 1985; a quarter", COMMAND);
     let plate = Plate { modulus: 6.825e7, poisson: 0.3, thickness: 0.04, mass: 0.0 };
     for shape in SHAPES {
         for n in [4, 8, 16, 32] {
@@ -106,7 +108,7 @@ fn hemisphere() {
 /// Cook, J. Struct. Div. ASCE 100, 1974, 1851–1863; 23.96.
 #[test]
 fn cooks_membrane() {
-    let mut table = Table::new("Cook's membrane", "Cook 1974; converged value 23.96");
+    let mut table = Table::new("Cook's membrane", "Cook 1974; converged value 23.96", COMMAND);
     let plate = Plate { modulus: 1.0, poisson: 1.0 / 3.0, thickness: 1.0, mass: 0.0 };
     for shape in SHAPES {
         for n in [2, 4, 8, 16, 32] {

@@ -85,9 +85,9 @@ impl System for Full {
         supports: usize,
     ) -> Result<Arc<dyn Step>, FactorError> {
         let [a0, a1, ..] = newmark.a;
-        let (c_k, c_m) = (law.stiffness * (1.0 + a1 * law.beta), law.mass * (a0 + a1 * law.alpha));
+        let [c_k, c_m] = law.effective(&newmark);
+        let [alpha, dashpots, share] = law.history(&newmark);
         let factor = self.pencil.factor(c_k, c_m, a1)?;
-        let share = law.stiffness * law.beta / c_k;
         let frequency = law.stiffness / law.mass;
         let corrections = law.rates.iter().zip(&self.modes.omega2);
         let corrections = corrections.map(|(rate, w2)| modal_correction(*rate, frequency * w2, a0, a1) / law.mass);
@@ -98,8 +98,8 @@ impl System for Full {
             newmark,
             factor,
             mass: law.mass,
-            alpha: law.alpha - c_m / law.mass * share,
-            dashpots: 1.0 - a1 * share,
+            alpha,
+            dashpots,
             share,
             rates: law.rates.clone(),
             corrections,

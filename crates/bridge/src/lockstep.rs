@@ -45,9 +45,8 @@ impl Lockstep {
     /// # Errors
     /// A small bridge, which has no panels to share; dashpots; K̂ is not positive definite.
     pub fn new(pencil: &Pencil, law: &Law, newmark: Newmark, rows: &Rows, supports: usize) -> Result<Self, ModelError> {
-        let [a0, a1, ..] = newmark.a;
-        let (c_k, c_m) = (law.stiffness * (1.0 + a1 * law.beta), law.mass * (a0 + a1 * law.alpha));
-        let factor = pencil.factor(c_k, c_m, a1).map_err(|e| ModelError(format!("bridge: {e}")))?;
+        let [c_k, c_m] = law.effective(&newmark);
+        let factor = pencil.factor(c_k, c_m, newmark.a[1]).map_err(|e| ModelError(format!("bridge: {e}")))?;
         let lazy = Lazy::new(&factor, rows, supports, &[], &[]);
         let (Some(lazy), Some((pattern, _))) = (lazy, factor.panels()) else {
             return Err(ModelError("bridge: too small for runs in lockstep".into()));
@@ -56,8 +55,8 @@ impl Lockstep {
             return Err(ModelError("bridge: runs in lockstep take Rayleigh damping only".into()));
         }
         let mass = pencil.mass_in(&pattern.position);
-        let share = law.stiffness * law.beta / c_k;
-        let constants = [law.mass, law.alpha - c_m / law.mass * share, share];
+        let [alpha, _, share] = law.history(&newmark);
+        let constants = [law.mass, alpha, share];
         let zeros = vec![0.0; pattern.order.len() * LANES];
         let [u, v, a, y, known, work] = std::array::from_fn(|_| zeros.clone());
         let free = vec![0.0; rows.len() * LANES];

@@ -7,12 +7,13 @@
 //! ```
 //!
 //! The probe is a train of axle loads that runs over the supports and trembles by ± 15 % with frequencies from 1 to
-//! 100 Hz, harder than a train on a track, whose springs hold back what is fast.
+//! 100 Hz, harder than a train on a track, whose rail spreads and whose springs hold back what is fast.
 
 use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 use ttb_coupling::ModelError;
+use ttb_dynamics::factor::{Factor, FactorError};
 use ttb_dynamics::krylov::Krylov;
 use ttb_dynamics::newmark::{Motion, Newmark};
 use ttb_dynamics::reduction::{Answers, Shifted, reduce};
@@ -33,7 +34,7 @@ const MOST: usize = 1600;
 /// Pseudo-modes with a smaller share in every compliance are left out.
 const NEGLIGIBLE: f64 = 1e-6;
 /// Steps of the probe.
-const PROBE: usize = 240;
+const PROBE: usize = 160;
 
 /// What a reduction kept and how wrong it is.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -60,12 +61,14 @@ pub struct Built {
     pub accuracy: Accuracy,
 }
 
-/// Builds the model; B are the first `supports` of the `rows`, `stations` where they stand (m).
+/// Builds the model from the matrices and the factor of K₀; B are the first of the `rows`, one for each of the `stations`
+/// where the supports stand (m).
 ///
 /// # Errors
 /// Dashpots, which couple the modes; K̂ is not positive definite.
 pub fn build(
     pencil: &Arc<Pencil>,
+    stiffness: &Factor,
     law: &Law,
     newmark: Newmark,
     rows: &[Row],
@@ -80,29 +83,24 @@ pub fn build(
         let rule = "bridge: a reduced model needs damping of type rayleigh or none; with modal damping give `modes`";
         return Err(ModelError(rule.into()));
     }
-    let failed = |e: ttb_dynamics::factor::FactorError| ModelError(format!("bridge: {e}"));
+    let failed = |e: FactorError| ModelError(format!("bridge: {e}"));
     let supports = stations.len();
-    let stiffness = pencil.factor(1.0, 0.0, 0.0).map_err(failed)?;
     let sparse = Arc::new(Rows::new(rows));
     let full = Arc::new(Full::new(Arc::clone(pencil), None, Default::default()));
     let full = full.prepare(law, newmark, &sparse, supports).map_err(failed)?;
     let truth = probe(&*full, &sparse, stations, pencil.ndof(), newmark.h);
     drop(full);
-    let [a0, a1, ..] = newmark.a;
-    let (c_k, c_m) = (1.0 + a1 * law.beta, a0 + a1 * law.alpha);
+    let [c_k, c_m] = law.effective(&newmark);
     let mut hertz = wish.highest_frequency.unwrap_or(FIRST);
     // Between statics and a step, on a logarithmic scale.
     let between = std::f64::consts::TAU * hertz * (c_m / c_k).sqrt();
-    let answers = {
-        let shifts = [[1.0, 0.0], [1.0, between], [c_k, c_m]];
-        let factors = shifts.iter().map(|[c_k, c_m]| pencil.factor(*c_k, *c_m, 0.0)).collect::<Result<Vec<_>, _>>();
-        let factors = factors.map_err(failed)?;
-        let shifted = factors.iter().zip(shifts);
-        let combinations: Vec<Shifted> =
-            shifted.map(|(factor, [stiffness, mass])| Shifted { factor, stiffness, mass }).collect();
-        Answers::new(pencil, &combinations, rows, supports)
-    };
-    let mut krylov = Krylov::new(pencil, &stiffness, &rows[..supports]);
+    let mut answers = Answers::default();
+    answers.add(pencil, Shifted { factor: stiffness, stiffness: 1.0, mass: 0.0 }, rows, supports);
+    for [stiffness, mass] in [[1.0, between], [c_k, c_m]] {
+        let factor = pencil.factor(stiffness, mass, 0.0).map_err(failed)?;
+        answers.add(pencil, Shifted { factor: &factor, stiffness, mass }, rows, supports);
+    }
+    let mut krylov = Krylov::new(pencil, stiffness, &rows[..supports]);
     loop {
         let ritz = krylov.modes(std::f64::consts::TAU * hertz, MOST);
         let basis = reduce(&answers, &krylov, &ritz, rows, NEGLIGIBLE);
@@ -116,8 +114,8 @@ pub fn build(
         drop(stepper);
         let [displacement, acceleration] = [0, 1].map(|i| difference(&seen[i], &truth[i]));
         let accuracy = Accuracy { modes, pseudo_modes, highest_frequency: hertz, displacement, acceleration };
-        let enough = acceleration <= wish.error || wish.highest_frequency.is_some() || krylov.dimension() >= MOST;
-        if enough {
+        let chosen = wish.highest_frequency.is_some() || krylov.dimension() >= MOST;
+        if acceleration <= wish.error || chosen {
             let rows = Arc::unwrap_or_clone(shared);
             let system = Arc::into_inner(system).ok_or_else(|| ModelError("bridge: a model is held twice".into()))?;
             return Ok(Built { system, rows, accuracy });
@@ -146,30 +144,27 @@ fn probe(step: &dyn Step, rows: &Rows, stations: &[f64], unknowns: usize, h: f64
     [displacements, accelerations]
 }
 
-/// Forces of the probe at a time: axles of 150 kN in pairs over the whole bridge, each spread over its two neighbours.
+/// Forces of the probe at a time: axles of 150 kN in pairs over the whole bridge, each shared by the supports beside it.
 fn load(stations: &[f64], t: f64, forces: &mut [f64]) {
     const AXLE: f64 = 150e3;
     const SPEED: f64 = 70.0;
     const PITCH: [f64; 2] = [2.5, 17.4];
     /// Of the axles' grip, s.
     const RISE: f64 = 0.02;
+    const HERTZ: [f64; 10] = [1.0, 3.1, 7.7, 13.3, 21.7, 34.9, 48.1, 63.7, 81.3, 99.1];
     forces.fill(0.0);
-    let ([.., last], [first, ..]) = (stations, stations) else { return };
-    let length = last - first;
-    let (mut x, mut axle) = (SPEED * t, 0_usize);
-    x -= ((x / (PITCH[0] + PITCH[1])).floor()) * (PITCH[0] + PITCH[1]);
-    while x <= length {
-        let hertz = [1.0, 3.1, 7.7, 13.3, 21.7, 34.9, 48.1, 63.7, 81.3, 99.1];
-        let tremble: f64 = hertz
-            .iter()
-            .enumerate()
-            .map(|(k, f)| (std::f64::consts::TAU * f * t + (1 + k * 5 + axle * 7) as f64).sin())
-            .sum();
-        let force = AXLE * (t / RISE).min(1.0) * (1.0 + 0.15 * tremble / (hertz.len() as f64).sqrt());
-        let right = stations.partition_point(|s| s - first <= x).min(stations.len() - 1);
+    let ([first, ..], [.., last]) = (stations, stations) else { return };
+    let mut x = first + (SPEED * t) % (PITCH[0] + PITCH[1]);
+    let mut axle = 0_usize;
+    while x <= *last {
+        let phase = |k: usize| (1 + k * 5 + axle * 7) as f64;
+        let terms = HERTZ.iter().enumerate().map(|(k, f)| (std::f64::consts::TAU * f * t + phase(k)).sin());
+        let tremble = terms.sum::<f64>() / (HERTZ.len() as f64).sqrt();
+        let force = AXLE * (t / RISE).min(1.0) * (1.0 + 0.15 * tremble);
+        let right = stations.partition_point(|s| *s <= x).min(stations.len() - 1);
         let left = right.saturating_sub(1);
         let gap = stations[right] - stations[left];
-        let share = if gap > 0.0 { ((x + first - stations[left]) / gap).clamp(0.0, 1.0) } else { 1.0 };
+        let share = if gap > 0.0 { ((x - stations[left]) / gap).clamp(0.0, 1.0) } else { 1.0 };
         forces[right] += share * force;
         forces[left] += (1.0 - share) * force;
         x += PITCH[axle % 2];

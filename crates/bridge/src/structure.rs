@@ -107,8 +107,7 @@ impl Structure {
         if let Some(wish) = &spec.reduction {
             let law = self.law(self.damping_ratio(), 1.0, 1.0)?;
             let newmark = Newmark::new(spec.newmark.gamma, spec.newmark.beta, spec.step);
-            drop(statics);
-            let built = reduction::build(&pencil, &law, newmark, &rows, &spec.supports, wish)?;
+            let built = reduction::build(&pencil, &statics, &law, newmark, &rows, &spec.supports, wish)?;
             self.accuracy = Some(built.accuracy);
             self.source = Some(Source::Reduced { omega2: built.system.omega2().to_vec() });
             (self.system, self.rows) = (Arc::new(built.system), Arc::new(built.rows));
@@ -204,7 +203,7 @@ impl Structure {
 }
 
 /// The supports' degrees of freedom, if eliminating them last adds little to the factor.
-fn eliminated_last(supports: &[Row], ndof: usize) -> Vec<u32> {
+pub fn eliminated_last(supports: &[Row], ndof: usize) -> Vec<u32> {
     let mut dofs: Vec<u32> = supports.iter().flatten().map(|(dof, _)| *dof).collect();
     dofs.sort_unstable();
     dofs.dedup();

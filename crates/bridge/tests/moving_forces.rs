@@ -2,9 +2,12 @@
 
 mod common;
 
-use common::{Train, beams, get, near, span};
+use common::{Train, beams, get, span};
+use ttb_record::Table;
 use ttb_scenario::spec::BridgeSpec;
 use ttb_scenario::types::Damping;
+
+const COMMAND: &str = "-p ttb-bridge --test moving_forces";
 
 /// Greatest |displacement| in m and |acceleration| in m/s² of the point `mid`.
 fn peaks(train: &Train, spec: &BridgeSpec, end: f64) -> (f64, f64) {
@@ -18,7 +21,9 @@ fn peaks(train: &Train, spec: &BridgeSpec, end: f64) -> (f64, f64) {
 
 #[test]
 fn a_moving_force_amplifies_as_fryba_says() {
-    // Mid-span amplification while the force is on the beam; α = πv/(Lω₁); 100 modes.
+    let source = "Frýba, Vibration of Solids and Structures, 1999; series of 100 modes. Mid-span, over the static value, while \
+                  the force is on the beam; α = πv/(Lω₁)";
+    let mut table = Table::new("moving force over a simple beam, amplification", source, COMMAND);
     for (alpha, expected) in [(0.2, 1.06527), (0.3, 1.41049), (0.5, 1.70545), (0.617, 1.73167), (1.0, 1.54807)] {
         let (length, ei, m, force) = (25.0, 30e9, 15e3, 100e3);
         let omega1 = (std::f64::consts::PI / length).powi(2) * f64::sqrt(ei / m);
@@ -26,8 +31,9 @@ fn a_moving_force_amplifies_as_fryba_says() {
         let passage = length / speed;
         let spec = beams(vec![span(length, ei, m, 50)], 50, passage / 2000.0);
         let (w, _) = peaks(&Train { axles: vec![(0.0, force)], speed }, &spec, passage);
-        near(&format!("DAF at α = {alpha}"), w / (force * length.powi(3) / (48.0 * ei)), expected, 0.005);
+        table.row(format!("α = {alpha}"), expected, w / (force * length.powi(3) / (48.0 * ei)), 0.005);
     }
+    table.finish();
 }
 
 #[test]
@@ -42,8 +48,11 @@ fn yang_and_yaus_moving_force() {
             (peak, at) = (w, t);
         }
     });
-    near("peak in mm", 1e3 * peak, 2.396826, 0.005);
-    near("time of the peak in s", at, 0.37639, 0.01);
+    let source = "Yang and Yau, J. Struct. Eng. 123, 1997; series of 200 modes";
+    let mut table = Table::new("moving force over a beam of 25 m", source, COMMAND);
+    table.row("peak, mm", 2.396826, 1e3 * peak, 0.005);
+    table.row("its time, s", 0.37639, at, 0.01);
+    table.finish();
 }
 
 /// Axles of an HSLM-A train, m behind the first and N (EN 1991-2, figure 6.12): `coaches` intermediate coaches of
@@ -78,11 +87,14 @@ fn trains_of_forces_over_a_25_m_beam() {
     let mut spec = beams(vec![span(25.0, 30e9, 15e3, 50)], 50, 1e-3);
     spec.modes = Some(3);
     spec.damping = Damping::Modal { ratio: 0.01, modes: 3 };
+    let source = "EN 1991-2 (trains), independent modal solution with three modes; L 25 m, 15 t/m, EI 30 GN m², ζ 1 %";
+    let mut table = Table::new("trains of forces over a beam", source, COMMAND);
     for (name, axles, kmh, w_mm, a) in cases {
         let last = axles.iter().fold(0.0_f64, |m, (x, _)| m.max(*x));
         let speed = kmh / 3.6;
         let (w, acceleration) = peaks(&Train { axles, speed }, &spec, (last + 30.0) / speed);
-        near(&format!("{name}, mm"), 1e3 * w, w_mm, 0.01);
-        near(&format!("{name}, m/s²"), acceleration, a, 0.03);
+        table.row(format!("{name}, mm"), w_mm, 1e3 * w, 0.01);
+        table.row(format!("{name}, m/s²"), a, acceleration, 0.03);
     }
+    table.finish();
 }

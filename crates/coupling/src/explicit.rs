@@ -9,8 +9,9 @@
 //! ```
 //!
 //! Deck and track never part; G − λ, the force that is missing, is the error estimate. The scheme is stable as long as ρ,
-//! the contraction of the iteration it stands for, is small: with directional derivatives of the bridge ρ is measured
-//! before the first step, without them a residual that grows tells.
+//! the contraction of the iteration it stands for, is small. ρ is measured
+//! before the first step: by the bridge's directional derivatives, or by other instances of it that are thrown away. A
+//! residual that grows tells in any case.
 
 use crate::dense::{dot, norm};
 use crate::exchange::Sides;
@@ -93,12 +94,29 @@ impl Coupling {
         }
     }
 
-    /// ρ by the bridge's directional derivatives and the train–track subsystem's trials, as in
-    /// [`Coupling::contraction`]; refuses a ρ above [`STABLE`].
+    /// Refuses a ρ above [`STABLE`], if ρ can be known before the first step.
     fn refuse_strong(&mut self, sides: &mut Sides) -> Result<(), IterationError> {
-        if !sides.bridge.can_derive() {
-            return Ok(());
+        let rho = if sides.bridge.can_roll_back() {
+            sides.save()?;
+            self.lambda.copy_from_slice(self.forces.now());
+            let rho = self.contraction(sides)?;
+            sides.restore()?;
+            Some(rho)
+        } else {
+            self.contraction_apart(sides)?
+        };
+        self.report.contraction = rho;
+        match rho {
+            Some(rho) if rho > STABLE => {
+                Err(IterationError::Unstable { t: sides.t, h: sides.h, rho: Some(rho), residual: 0.0 })
+            }
+            _ => Ok(()),
         }
+    }
+
+    /// ρ as in [`Coupling::contraction`], without a step of the bridge: by its directional derivatives or by understudies,
+    /// and the train–track subsystem's trials. None if it has neither, or refuses them before its first step.
+    fn contraction_apart(&mut self, sides: &mut Sides) -> Result<Option<f64>, IterationError> {
         let n = self.lambda.len();
         let scale = crate::identify::PROBE * self.settings.force_scale;
         let share = self.exchange.share_of_force(sides.bridge);
@@ -109,31 +127,58 @@ impl Coupling {
         // Derivatives are those for inputs as they will be given.
         self.exchange.announce(sides, self.forces.now(), self.forces.now())?;
         v.iter_mut().enumerate().for_each(|(i, v)| *v = crate::identify::shape(i));
-        let mut rho = 0.0;
+        let (mut rho, mut at_rest) = (None, None);
         for _ in 0..crate::identify::POWER {
             let size = norm(&v);
             if !(size > 0.0 && size.is_finite()) {
                 break;
             }
             let factor = scale * (n as f64).sqrt() / size;
-            v.iter_mut().for_each(|v| *v *= factor * share);
-            // An FMU that refuses before its first step leaves ρ unknown.
-            if sides.bridge.derivative(&v, &mut change).is_err() {
-                sides.train_track.restore()?;
-                return Ok(());
+            v.iter_mut().for_each(|v| *v *= factor);
+            let known = if sides.bridge.can_derive() {
+                v.iter_mut().for_each(|v| *v *= share);
+                sides.bridge.derivative(&v, &mut change).is_ok()
+            } else {
+                self.change_apart(sides, &v, &mut at_rest, &mut change)?
+            };
+            if !known {
+                break;
             }
             let moved = self.exchange.motion.iter_mut().zip(&self.exchange.now).zip(&change);
             moved.for_each(|((m, now), c)| *m = now + c);
             sides.train_track.restore()?;
             self.exchange.train_track(sides, &mut self.answer, true)?;
             v.iter_mut().zip(&self.answer).zip(&base).for_each(|((v, g), base)| *v = (g - base) / factor);
-            rho = dot(&v, &v).sqrt() / size;
+            rho = Some(dot(&v, &v).sqrt() / size);
         }
         sides.train_track.restore()?;
-        self.report.contraction = Some(rho);
-        if rho > STABLE {
-            return Err(IterationError::Unstable { t: sides.t, h: sides.h, rho: Some(rho), residual: 0.0 });
+        Ok(rho)
+    }
+
+    /// What a change of the forces changes of the motion after a step, seen on understudies; `at_rest` keeps the motion
+    /// without it.
+    fn change_apart(
+        &mut self,
+        sides: &mut Sides,
+        force: &[f64],
+        at_rest: &mut Option<Vec<f64>>,
+        change: &mut [f64],
+    ) -> Result<bool, IterationError> {
+        if at_rest.is_none() {
+            *at_rest = self.step_apart(sides, &vec![0.0; force.len()])?;
         }
-        Ok(())
+        let (Some(base), Some(motion)) = (at_rest, self.step_apart(sides, force)?) else { return Ok(false) };
+        change.iter_mut().zip(&motion).zip(base).for_each(|((c, m), b)| *c = m - *b);
+        Ok(true)
+    }
+
+    /// The motion after a step of an understudy under the forces at hand and `force`.
+    fn step_apart(&mut self, sides: &mut Sides, force: &[f64]) -> Result<Option<Vec<f64>>, IterationError> {
+        let now = self.forces.now();
+        let Some(mut bridge) = sides.bridge.understudy(now)? else { return Ok(None) };
+        let after: Vec<f64> = now.iter().zip(force).map(|(now, force)| now + force).collect();
+        let (train_track, bridge, t, h) = (&mut *sides.train_track, &mut *bridge, sides.t, sides.h);
+        self.exchange.bridge(&mut Sides { train_track, bridge, t, h }, now, &after, false)?;
+        Ok(Some(self.exchange.motion.clone()))
     }
 }

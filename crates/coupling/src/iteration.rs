@@ -53,6 +53,10 @@ pub struct Coupling {
     pub(crate) strategy: Strategy,
     pub(crate) report: Report,
     pub(crate) explicit: Explicit,
+    /// Steps that have converged.
+    pub(crate) converged: usize,
+    /// A motion to compare with.
+    pub(crate) repeated: Vec<f64>,
 }
 
 impl Coupling {
@@ -72,6 +76,8 @@ impl Coupling {
             strategy: Strategy::new(forces, &settings),
             report: Report::default(),
             explicit: Explicit::default(),
+            converged: 0,
+            repeated: vec![0.0; motions],
         }
     }
 
@@ -112,7 +118,7 @@ impl Coupling {
         let info = self.iterate(&mut sides, Mode::Equilibrium, self.settings.max_iterations.max(STATIC_TRIALS))?;
         self.strategy.end_static();
         if info.outcome == Outcome::IterationLimit && self.settings.on_failure != OnFailure::Accept {
-            return Err(IterationError::NotConverged { t, h: 0.0, info: info.into(), rho: None });
+            return Err(IterationError::NotConverged { t, h: 0.0, info: Box::new(info), rho: None });
         }
         sides.train_track.exit_initialization()?;
         sides.bridge.exit_initialization()?;
@@ -150,7 +156,7 @@ impl Coupling {
         self.strategy.begin_step(sides.h);
         let info = self.iterate(sides, Mode::OnePass, 1)?;
         if info.outcome != Outcome::Converged && self.settings.on_failure != OnFailure::Accept {
-            return Err(IterationError::NotConverged { t: sides.t, h: sides.h, info: info.into(), rho: None });
+            return Err(IterationError::NotConverged { t: sides.t, h: sides.h, info: Box::new(info), rho: None });
         }
         let work = self.account(sides)?;
         self.forces.accept(&self.answer, sides.h);
@@ -161,6 +167,10 @@ impl Coupling {
     fn step_or_halve(&mut self, sides: &mut Sides, depth: usize) -> Result<StepInfo, IterationError> {
         let info = self.try_step(sides)?;
         let (policy, t, h) = (self.settings.on_failure, sides.t, sides.h);
+        if info.outcome == Outcome::Converged && self.audit_is_due() {
+            self.repeated.copy_from_slice(&self.exchange.motion);
+            self.audit(sides)?;
+        }
         if info.outcome == Outcome::Converged || policy == OnFailure::Accept {
             let work = self.account(sides)?;
             self.forces.accept(&self.lambda, h);
@@ -172,9 +182,13 @@ impl Coupling {
         }
         if policy == OnFailure::Stop || depth == HALVINGS {
             self.forces.predict(self.settings.predictor, h, &mut self.lambda);
-            let rho = self.contraction(sides).ok();
+            let rho = self.diagnose(sides);
             sides.restore()?;
-            return Err(IterationError::NotConverged { t, h, info: info.into(), rho });
+            if let Err(lie @ IterationError::NoReturn { .. }) = rho {
+                return Err(lie);
+            }
+            let rho = rho.ok();
+            return Err(IterationError::NotConverged { t, h, info: Box::new(info), rho });
         }
         sides.restore()?;
         let first = self.step_or_halve(&mut sides.over(t, 0.5 * h), depth + 1)?;
@@ -228,6 +242,15 @@ impl Coupling {
             rescues: 1,
             ..rescued
         })
+    }
+
+    /// ρ of a step that does not converge; or that the bridge does not come back to its state, which may be why.
+    fn diagnose(&mut self, sides: &mut Sides) -> Result<f64, IterationError> {
+        self.trial(sides)?;
+        self.repeated.copy_from_slice(&self.exchange.motion);
+        let rho = self.contraction(sides)?;
+        self.audit(sides)?;
+        Ok(rho)
     }
 
     /// Counts the work of a step that is about to be accepted.

@@ -103,6 +103,15 @@ pub enum IterationError {
         /// |r| / max(|G|, one axle load) of the step; 0 if it was not taken.
         residual: f64,
     },
+    /// A subsystem that says it rolls back does not come back to the same state.
+    NoReturn {
+        /// Begin of the step that was repeated, s.
+        t: f64,
+        /// Which.
+        side: Side,
+        /// By how much the repeated step differs, relative to what it changes.
+        difference: f64,
+    },
     /// A subsystem answered NaN or infinity.
     NotFinite {
         /// Begin of the step, s.
@@ -156,6 +165,11 @@ impl std::fmt::Display for IterationError {
                 }
                 write!(f, ". Use a smaller step, or a bridge FMU with canGetAndSetFMUstate")
             }
+            Self::NoReturn { t, side, difference } => write!(
+                f,
+                "{side} does not come back to the state it saved: the step from t = {t} s, repeated, differs by {difference:.1e} \
+                 of its change, so that no iteration can be trusted"
+            ),
             Self::NotFinite { t, side, index, value } => write!(
                 f,
                 "{side} answered {value} in the step from t = {t} s, as its coupled output number {}",

@@ -70,6 +70,15 @@ pub trait Subsystem {
         true
     }
 
+    /// Another instance of the same, to be tried and thrown away: in the state this one had when initialization ended, under
+    /// `inputs`. None if there can be none.
+    ///
+    /// # Errors
+    /// It cannot be made.
+    fn understudy(&mut self, _inputs: &[f64]) -> Result<Option<Box<dyn Subsystem>>, Failure> {
+        Ok(None)
+    }
+
     /// Whether [`Subsystem::derivative`] works.
     fn can_derive(&self) -> bool {
         false
@@ -82,5 +91,41 @@ pub trait Subsystem {
     /// The subsystem cannot.
     fn derivative(&mut self, _seed: &[f64], _change: &mut [f64]) -> Result<(), Failure> {
         Err(Failure { subsystem: "a subsystem".into(), message: "it provides no directional derivatives".into() })
+    }
+}
+
+impl<S: Subsystem + ?Sized> Subsystem for Box<S> {
+    fn set_inputs(&mut self, values: &[f64], rates: Option<&[f64]>) -> Result<(), Failure> {
+        (**self).set_inputs(values, rates)
+    }
+    fn get_outputs(&mut self, outputs: &mut [f64]) -> Result<(), Failure> {
+        (**self).get_outputs(outputs)
+    }
+    fn exit_initialization(&mut self) -> Result<(), Failure> {
+        (**self).exit_initialization()
+    }
+    fn step(&mut self, t: f64, h: f64, may_restore: bool) -> Result<(), Failure> {
+        (**self).step(t, h, may_restore)
+    }
+    fn save(&mut self) -> Result<(), Failure> {
+        (**self).save()
+    }
+    fn restore(&mut self) -> Result<(), Failure> {
+        (**self).restore()
+    }
+    fn can_interpolate(&self) -> bool {
+        (**self).can_interpolate()
+    }
+    fn can_roll_back(&self) -> bool {
+        (**self).can_roll_back()
+    }
+    fn understudy(&mut self, inputs: &[f64]) -> Result<Option<Box<dyn Subsystem>>, Failure> {
+        (**self).understudy(inputs)
+    }
+    fn can_derive(&self) -> bool {
+        (**self).can_derive()
+    }
+    fn derivative(&mut self, seed: &[f64], change: &mut [f64]) -> Result<(), Failure> {
+        (**self).derivative(seed, change)
     }
 }

@@ -167,8 +167,8 @@ mod tests {
             let first = columns.div_ceil(2);
             let (mut all, mut last) = (vec![0.0; columns], vec![0.0; columns - first]);
             a.fold(&x[..first], |j, p| [p + j as f64, 2.0 * p], [&mut all, &mut last]);
-            for j in 0..columns {
-                assert_eq!(all[j], transposed(&|i| product(i, first) + i as f64, j));
+            for (j, all) in all.iter().enumerate() {
+                assert_eq!(*all, transposed(&|i| product(i, first) + i as f64, j));
                 if let Some(k) = j.checked_sub(first) {
                     assert_eq!(last[k], transposed(&|i| 2.0 * product(i, first), j));
                 }

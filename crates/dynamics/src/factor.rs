@@ -164,6 +164,18 @@ impl Factor {
         })
     }
 
+    /// Takes the numbers of another matrix of the same pattern; a large factor keeps its memory.
+    ///
+    /// # Errors
+    /// As [`Factor::positive`]; the factor is then of no use.
+    pub fn again(&mut self, a: SparseColMatRef<'_, u32, f64>) -> Result<(), FactorError> {
+        match self {
+            Self::Simplicial(pattern, numbers) => *numbers = pattern.factorise_positive(a, LEAST_PIVOT)?,
+            Self::Supernodal(pattern, numbers) => pattern.factorise_into(a, LEAST_PIVOT, numbers)?,
+        }
+        Ok(())
+    }
+
     /// Numbers of the factor: what one sweep reads.
     pub fn entries(&self) -> usize {
         match self {

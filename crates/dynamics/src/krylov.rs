@@ -20,7 +20,7 @@ use crate::sparse::Pencil;
 use crate::vector::dot;
 
 /// Vectors in a block.
-const BLOCK: usize = 16;
+const BLOCK: usize = 32;
 /// Squares below this part of what they were before the orthogonalisation are rounding.
 const ROUNDING: f64 = 1e-22;
 /// Residual of A φ = θ φ relative to θ at which a mode is taken as found.
@@ -33,6 +33,10 @@ pub struct Krylov<'a> {
     n: usize,
     /// Q by columns.
     basis: Vec<f64>,
+    /// M Q of the last two blocks.
+    mass_basis: Vec<f64>,
+    /// Vectors in the last block.
+    last: usize,
     /// T, and R below its last block: (columns + one block) × columns.
     t: Vec<Vec<f64>>,
     /// The space is exhausted.
@@ -51,7 +55,8 @@ impl<'a> Krylov<'a> {
     /// Starts from mixtures of the loads; `loads` are rows of weights on degrees of freedom.
     pub fn new(pencil: &'a Pencil, stiffness: &'a Factor, loads: &[Vec<(u32, f64)>]) -> Self {
         let n = pencil.ndof();
-        let mut this = Self { pencil, stiffness, n, basis: Vec::new(), t: Vec::new(), complete: false };
+        let (basis, mass_basis, t) = (Vec::new(), Vec::new(), Vec::new());
+        let mut this = Self { pencil, stiffness, n, basis, mass_basis, last: 0, t, complete: false };
         let mut block = vec![0.0; n * BLOCK];
         let mut random = Random::default();
         for load in loads {
@@ -70,34 +75,29 @@ impl<'a> Krylov<'a> {
         self.t.len()
     }
 
-    /// Orthonormalises a block against the basis and itself, and appends what is left; returns all coefficients by columns.
+    /// Orthonormalises a block X against the basis and itself, and appends what is left; returns all coefficients by columns.
+    ///
+    /// Twice is enough (Parlett, The Symmetric Eigenvalue Problem, 1998, section 6.9). The first time only against the
+    /// neighbours, from which alone X differs by more than rounding; their M Q is at hand.
     fn append(&mut self, mut block: Vec<f64>) -> Vec<Vec<f64>> {
         let (n, width) = (self.n, block.len() / self.n);
-        let known = self.basis.len() / n;
-        let mut coefficients = vec![vec![0.0; known]; width];
-        // Twice is enough (Parlett, The Symmetric Eigenvalue Problem, 1998, section 6.9).
-        let mut whole = 0.0;
-        for pass in 0..2 {
-            let mass = self.mass(&block);
-            if pass == 0 {
-                let sizes = block.chunks_exact(n).zip(mass.chunks_exact(n)).map(|(x, y)| dot(x, y));
-                whole = sizes.fold(0.0, f64::max);
-            }
-            let q = MatRef::from_column_major_slice(&self.basis, n, known);
-            let c = inner(q, MatRef::from_column_major_slice(&mass, n, width));
-            let rest = MatMut::from_column_major_slice_mut(&mut block, n, width);
-            matmul(rest, Accum::Add, q, c.as_ref(), -1.0, Par::Seq);
-            for (column, sums) in coefficients.iter_mut().enumerate() {
-                sums.iter_mut().enumerate().for_each(|(i, sum)| *sum += c[(i, column)]);
-            }
-        }
-        // Inside the block: G = XᵀMX = V diag(g) Vᵀ; directions without mass of their own are dropped.
+        let (known, near) = (self.basis.len() / n, self.mass_basis.len() / n);
+        let basis = columns(&self.basis, n);
+        let local = inner(columns(&self.mass_basis, n), columns(&block, n));
+        subtract(&mut block, n, basis.subcols(known - near, near), &local);
+        let mut mass = self.mass(&block);
+        let all = inner(basis, columns(&mass, n));
+        let sizes = block.chunks_exact(n).zip(mass.chunks_exact(n)).map(|(x, y)| dot(x, y));
+        let whole = sizes.enumerate().map(|(j, size)| size + local.col(j).squared_norm_l2()).fold(0.0, f64::max);
+        subtract(&mut block, n, basis, &all);
+        let sum = |i: usize, j: usize| all[(i, j)] + if i + near >= known { local[(i + near - known, j)] } else { 0.0 };
+        let mut coefficients: Vec<Vec<f64>> = (0..width).map(|j| (0..known).map(|i| sum(i, j)).collect()).collect();
+        // Inside the block: G = XᵀMX = V diag(g) Vᵀ; directions without mass of their own are dropped. The basis has just
+        // been taken out of X, so that M X may be that from before.
         let mut transform = Mat::<f64>::identity(width, width);
         let mut kept = width;
         for pass in 0..2 {
-            let mass = self.mass(&block);
-            let x = MatRef::from_column_major_slice(&block, n, kept);
-            let gram = inner(x, MatRef::from_column_major_slice(&mass, n, kept));
+            let gram = inner(columns(&block, n), columns(&mass, n));
             let Ok(eigen) = gram.self_adjoint_eigen(Side::Lower) else { break };
             let values: Vec<f64> = eigen.S().column_vector().iter().copied().collect();
             let largest = values.iter().fold(0.0_f64, |m, x| m.max(*x));
@@ -106,23 +106,20 @@ impl<'a> Krylov<'a> {
             let v = eigen.U();
             let scale = Mat::from_fn(kept, good.len(), |i, j| v[(i, good[j])] / values[good[j]].sqrt());
             let back = Mat::from_fn(good.len(), kept, |i, j| v[(j, good[i])] * values[good[i]].sqrt());
-            let mut next = vec![0.0; n * good.len()];
-            matmul(
-                MatMut::from_column_major_slice_mut(&mut next, n, good.len()),
-                Accum::Replace,
-                x,
-                scale.as_ref(),
-                1.0,
-                Par::Seq,
-            );
             transform = &back * &transform;
-            (block, kept) = (next, good.len());
+            block = times(&block, n, &scale);
+            mass = if pass == 0 { self.mass(&block) } else { times(&mass, n, &scale) };
+            kept = good.len();
         }
         for (column, sums) in coefficients.iter_mut().enumerate() {
             sums.extend((0..kept).map(|i| transform[(i, column)]));
         }
         self.complete |= kept == 0;
         self.basis.extend_from_slice(&block);
+        let last = (self.mass_basis.len() / n).saturating_sub(self.last) * n;
+        self.mass_basis.drain(..last);
+        self.mass_basis.extend_from_slice(&mass);
+        self.last = kept;
         coefficients
     }
 
@@ -142,7 +139,7 @@ impl<'a> Krylov<'a> {
                 self.complete = true;
                 return;
             }
-            let mut next = self.mass(&self.basis[from..]);
+            let mut next = self.mass_basis[self.mass_basis.len() - self.last * self.n..].to_vec();
             solve(self.stiffness, &mut next);
             let columns = self.append(next);
             self.t.extend(columns);
@@ -194,4 +191,23 @@ impl<'a> Krylov<'a> {
         });
         &of_basis * &ritz.coordinates
     }
+}
+
+/// Vectors one behind the other as a matrix.
+fn columns(numbers: &[f64], n: usize) -> MatRef<'_, f64> {
+    MatRef::from_column_major_slice(numbers, n, numbers.len() / n)
+}
+
+/// X ← X − Q C.
+fn subtract(x: &mut [f64], n: usize, q: MatRef<'_, f64>, c: &Mat<f64>) {
+    let x = MatMut::from_column_major_slice_mut(x, n, c.ncols());
+    matmul(x, Accum::Add, q, c.as_ref(), -1.0, Par::Seq);
+}
+
+/// X C.
+fn times(x: &[f64], n: usize, c: &Mat<f64>) -> Vec<f64> {
+    let mut product = vec![0.0; n * c.ncols()];
+    let into = MatMut::from_column_major_slice_mut(&mut product, n, c.ncols());
+    matmul(into, Accum::Replace, columns(x, n), c.as_ref(), 1.0, Par::Seq);
+    product
 }

@@ -61,16 +61,14 @@ struct Answer {
 }
 
 /// All that a reduction needs of the large model besides its modes.
+#[derive(Default)]
 pub struct Answers(Vec<Answer>);
 
 impl Answers {
-    /// To loads through B, the first `supports` of the `rows`, under each of the combinations.
-    pub fn new(pencil: &Pencil, combinations: &[Shifted], rows: &[Vec<(u32, f64)>], supports: usize) -> Self {
-        let answer = |shifted: &Shifted| {
-            let (seen, inertia) = responses(pencil, shifted.factor, &rows[..supports], rows);
-            Answer { stiffness: shifted.stiffness, mass: shifted.mass, seen, inertia }
-        };
-        Self(combinations.iter().map(answer).collect())
+    /// Adds those to loads through B, the first `supports` of the `rows`, under a combination.
+    pub fn add(&mut self, pencil: &Pencil, shifted: Shifted, rows: &[Vec<(u32, f64)>], supports: usize) {
+        let (seen, inertia) = responses(pencil, shifted.factor, &rows[..supports], rows);
+        self.0.push(Answer { stiffness: shifted.stiffness, mass: shifted.mass, seen, inertia });
     }
 }
 
@@ -135,7 +133,7 @@ fn responses(
     rows: &[Vec<(u32, f64)>],
 ) -> (Mat<f64>, Mat<f64>) {
     /// Columns of M Z at a time.
-    const BLOCK: usize = 32;
+    const BLOCK: usize = 64;
     let (n, s) = (pencil.ndof(), loads.len());
     let mut z = vec![0.0; n * s];
     for (column, load) in z.chunks_exact_mut(n).zip(loads) {
@@ -144,16 +142,18 @@ fn responses(
     z.chunks_mut(n * BLOCK).for_each(|block| solve(factor, block));
     let seen =
         Mat::from_fn(rows.len(), s, |i, j| rows[i].iter().map(|(dof, w)| w * z[j * n + *dof as usize]).sum::<f64>());
+    // ZᵀMZ is symmetric: its upper half by blocks of columns, the other mirrored.
     let mut mass = Mat::zeros(s, s);
-    let all = MatRef::from_column_major_slice(&z, n, s);
     for first in (0..s).step_by(BLOCK) {
-        let width = BLOCK.min(s - first);
+        let (width, end) = (BLOCK.min(s - first), (first + BLOCK).min(s));
         let mut product = vec![0.0; n * width];
         for (x, y) in z[first * n..].chunks_exact(n).zip(product.chunks_exact_mut(n)) {
             pencil.add_mass(x, y);
         }
-        let columns = inner(all, MatRef::from_column_major_slice(&product, n, width));
-        mass.subcols_mut(first, width).copy_from(columns);
+        let above = MatRef::from_column_major_slice(&z[..end * n], n, end);
+        let columns = inner(above, MatRef::from_column_major_slice(&product, n, width));
+        mass.submatrix_mut(0, first, end, width).copy_from(&columns);
+        mass.submatrix_mut(first, 0, width, end).copy_from(columns.transpose());
     }
     (seen, mass)
 }

@@ -179,22 +179,34 @@ pub struct Product(Symmetric);
 impl Product {
     /// Y ← Y + A X for [`LANES`] vectors side by side.
     pub fn add_many(&self, x: &[f64], y: &mut [f64]) {
-        let Symmetric { starts, rows, values } = &self.0;
-        let (x, _) = x.as_chunks::<LANES>();
-        let (y, _) = y.as_chunks_mut::<LANES>();
-        pulp::Arch::new().dispatch(|| {
-            for (j, xj) in x.iter().enumerate() {
-                let column = starts[j] as usize..starts[j + 1] as usize;
-                let mut yj = y[j];
-                for (&i, a) in rows[column.clone()].iter().zip(&values[column]) {
-                    if i as usize != j {
-                        y[i as usize].iter_mut().zip(xj).for_each(|(y, x)| *y += a * x);
-                    }
-                    yj.iter_mut().zip(&x[i as usize]).for_each(|(y, x)| *y += a * x);
+        let ((x, _), (y, _)) = (x.as_chunks(), y.as_chunks_mut());
+        pulp::Arch::new().dispatch(Many { matrix: &self.0, x, y });
+    }
+}
+
+struct Many<'a> {
+    matrix: &'a Symmetric,
+    x: &'a [[f64; LANES]],
+    y: &'a mut [[f64; LANES]],
+}
+
+impl pulp::WithSimd for Many<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: pulp::Simd>(self, _: S) {
+        let Self { matrix: Symmetric { starts, rows, values }, x, y } = self;
+        for (j, xj) in x.iter().enumerate() {
+            let column = starts[j] as usize..starts[j + 1] as usize;
+            let mut yj = y[j];
+            for (&i, a) in rows[column.clone()].iter().zip(&values[column]) {
+                if i as usize != j {
+                    y[i as usize].iter_mut().zip(xj).for_each(|(y, x)| *y += a * x);
                 }
-                y[j] = yj;
+                yj.iter_mut().zip(&x[i as usize]).for_each(|(y, x)| *y += a * x);
             }
-        });
+            y[j] = yj;
+        }
     }
 }
 

@@ -126,6 +126,11 @@ impl Pattern {
         self.columns.partition_point(|&begin| begin <= row) - 1
     }
 
+    /// The columns of a panel, which are rows of L.
+    pub fn columns_of(&self, panel: u32) -> std::ops::Range<usize> {
+        self.columns[panel as usize] as usize..self.columns[panel as usize + 1] as usize
+    }
+
     /// Numbers of L in all panels.
     pub fn entries(&self) -> usize {
         self.value_starts.last().copied().unwrap_or(0)
@@ -150,12 +155,30 @@ impl Pattern {
     /// # Errors
     /// [`FactorError::NotPositive`] when a pivot is below `least_pivot` times its diagonal entry.
     pub fn factorise(&self, a: SparseColMatRef<'_, u32, f64>, least_pivot: f64) -> Result<Numbers, FactorError> {
+        let mut numbers = Numbers {
+            values: vec![0.0; self.cholesky.len_val()],
+            inverse_diagonal: Vec::with_capacity(self.order.len()),
+        };
+        self.factorise_into(a, least_pivot, &mut numbers)?;
+        Ok(numbers)
+    }
+
+    /// As [`Pattern::factorise`], into the memory of a factor of the same pattern.
+    ///
+    /// # Errors
+    /// As there; the numbers are then of no use.
+    pub fn factorise_into(
+        &self,
+        a: SparseColMatRef<'_, u32, f64>,
+        least_pivot: f64,
+        numbers: &mut Numbers,
+    ) -> Result<(), FactorError> {
         let (cholesky, par) = (&self.cholesky, Par::Seq);
-        let mut values = vec![0.0; cholesky.len_val()];
+        let Numbers { values, inverse_diagonal } = numbers;
         let mut memory = scratch(cholesky.factorize_numeric_llt_scratch::<f64>(par, Default::default()))?;
         cholesky
             .factorize_numeric_llt(
-                &mut values,
+                values,
                 a,
                 faer::Side::Lower,
                 Default::default(),
@@ -164,7 +187,7 @@ impl Pattern {
                 Default::default(),
             )
             .map_err(|LltError::NonPositivePivot { index }| FactorError::at_pivot(index, &self.order))?;
-        let mut inverse_diagonal = Vec::with_capacity(self.order.len());
+        inverse_diagonal.clear();
         for (column, diagonal) in self.diagonal().enumerate() {
             let l = values[diagonal];
             let dof = self.order[column] as usize;
@@ -175,7 +198,7 @@ impl Pattern {
             }
             inverse_diagonal.push(1.0 / l);
         }
-        Ok(Numbers { values, inverse_diagonal })
+        Ok(())
     }
 
     /// Number of negative eigenvalues of `a`, from its L D Lᵀ without pivoting.

@@ -10,7 +10,7 @@
 //! at a time, against a short buffer that stays in the first-level cache; the instruction set is chosen at run time (crate
 //! pulp). Several right-hand sides stand interleaved, [`LANES`] numbers to a row, and share the traffic.
 
-use pulp::Arch;
+use pulp::{Arch, Simd, WithSimd};
 
 /// Right-hand sides that [`Panels::forward_many`] and [`Panels::backward_many`] take at once.
 pub const LANES: usize = 8;
@@ -58,6 +58,33 @@ impl Which<'_> {
     }
 }
 
+/// A sweep as pulp wants it: what is in [`WithSimd::with_simd`] is compiled for the CPU at hand, a closure may not be.
+struct Sweep<'a, const FORWARD: bool, const MANY: bool> {
+    panels: &'a Panels<'a>,
+    y: &'a mut [f64],
+    buffer: &'a mut [f64],
+    which: Which<'a>,
+}
+
+impl<const FORWARD: bool, const MANY: bool> WithSimd for Sweep<'_, FORWARD, MANY> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) {
+        let Self { panels, y, buffer, which } = self;
+        let count = which.len(panels.count());
+        for i in 0..count {
+            let s = which.at(if FORWARD { i } else { count - 1 - i });
+            match (FORWARD, MANY) {
+                (true, false) => panels.forward_panel(s, y, buffer),
+                (false, false) => panels.backward_panel(s, y, buffer),
+                (true, true) => panels.forward_panel_many(simd, s, y, buffer),
+                (false, true) => panels.backward_panel_many(simd, s, y, buffer),
+            }
+        }
+    }
+}
+
 impl<'a> Panels<'a> {
     fn count(&self) -> usize {
         self.columns.len() - 1
@@ -74,20 +101,12 @@ impl<'a> Panels<'a> {
 
     /// y ← L⁻¹ y over `which` panels; `buffer` holds as much as the highest panel has rows.
     pub fn forward(&self, y: &mut [f64], buffer: &mut [f64], which: Which) {
-        Arch::new().dispatch(|| {
-            for i in 0..which.len(self.count()) {
-                self.forward_panel(which.at(i), y, buffer);
-            }
-        });
+        Arch::new().dispatch(Sweep::<true, false> { panels: self, y, buffer, which });
     }
 
     /// y ← L⁻ᵀ y over `which` panels, from the last to the first.
     pub fn backward(&self, y: &mut [f64], buffer: &mut [f64], which: Which) {
-        Arch::new().dispatch(|| {
-            for i in (0..which.len(self.count())).rev() {
-                self.backward_panel(which.at(i), y, buffer);
-            }
-        });
+        Arch::new().dispatch(Sweep::<false, false> { panels: self, y, buffer, which });
     }
 
     #[inline(always)]
@@ -135,8 +154,7 @@ impl<'a> Panels<'a> {
         // Rᵀ x_r first, front to back as the memory likes it; D is then still near.
         let mut j = 0;
         while j + 4 <= width {
-            let c: [&[f64]; 4] = std::array::from_fn(|k| &values[(j + k) * height + width..(j + k + 1) * height]);
-            let sums = dots(c, tail);
+            let sums = dots(below(values, height, width, j), tail);
             head[j..j + 4].iter_mut().zip(sums).for_each(|(x, sum)| *x -= sum);
             j += 4;
         }
@@ -158,24 +176,16 @@ impl<'a> Panels<'a> {
 impl Panels<'_> {
     /// Y ← L⁻¹ Y over `which` panels.
     pub fn forward_many(&self, y: &mut [f64], buffer: &mut [f64], which: Which) {
-        Arch::new().dispatch(|| {
-            for i in 0..which.len(self.count()) {
-                self.forward_panel_many(which.at(i), y, buffer);
-            }
-        });
+        Arch::new().dispatch(Sweep::<true, true> { panels: self, y, buffer, which });
     }
 
     /// Y ← L⁻ᵀ Y over `which` panels, from the last to the first.
     pub fn backward_many(&self, y: &mut [f64], buffer: &mut [f64], which: Which) {
-        Arch::new().dispatch(|| {
-            for i in (0..which.len(self.count())).rev() {
-                self.backward_panel_many(which.at(i), y, buffer);
-            }
-        });
+        Arch::new().dispatch(Sweep::<false, true> { panels: self, y, buffer, which });
     }
 
     #[inline(always)]
-    fn forward_panel_many(&self, s: usize, y: &mut [f64], buffer: &mut [f64]) {
+    fn forward_panel_many<S: Simd>(&self, simd: S, s: usize, y: &mut [f64], buffer: &mut [f64]) {
         let (begin, width, rows, values) = self.panel(s);
         let height = width + rows.len();
         let (y, _) = y.as_chunks_mut::<LANES>();
@@ -189,23 +199,23 @@ impl Panels<'_> {
             let (x, below) = head[j..].split_at_mut(1);
             let x = &mut x[0];
             x.iter_mut().for_each(|x| *x *= self.inverse_diagonal[begin + j]);
-            below.iter_mut().zip(&column[j + 1..]).for_each(|(t, l)| subtract(t, *l, x));
+            below.iter_mut().zip(&column[j + 1..]).for_each(|(t, l)| subtract(simd, t, *l, x));
         }
-        // R X by four rows and then one: their sums stay in registers.
-        let mut i = 0;
-        while i + 4 <= tail.len() {
-            let mut sums = [[0.0; LANES]; 4];
-            for (j, x) in head.iter().enumerate() {
-                let l = &values[j * height + width + i..][..4];
-                sums.iter_mut().zip(l).for_each(|(sum, l)| subtract(sum, *l, x));
+        let mut j = 0;
+        while j + 4 <= width {
+            let [a, b, c, d] = below(values, height, width, j);
+            let &[p, q, r, s] = &head[j..j + 4] else { break };
+            for ((((t, a), b), c), d) in tail.iter_mut().zip(a).zip(b).zip(c).zip(d) {
+                subtract(simd, t, *a, &p);
+                subtract(simd, t, *b, &q);
+                subtract(simd, t, *c, &r);
+                subtract(simd, t, *d, &s);
             }
-            tail[i..i + 4].copy_from_slice(&sums);
-            i += 4;
+            j += 4;
         }
-        for i in i..tail.len() {
-            for (j, x) in head.iter().enumerate() {
-                subtract(&mut tail[i], values[j * height + width + i], x);
-            }
+        for j in j..width {
+            let column = &values[j * height + width..(j + 1) * height];
+            tail.iter_mut().zip(column).for_each(|(t, l)| subtract(simd, t, *l, &head[j]));
         }
         y[begin..begin + width].copy_from_slice(head);
         for (&row, t) in rows.iter().zip(&*tail) {
@@ -214,7 +224,7 @@ impl Panels<'_> {
     }
 
     #[inline(always)]
-    fn backward_panel_many(&self, s: usize, y: &mut [f64], buffer: &mut [f64]) {
+    fn backward_panel_many<S: Simd>(&self, simd: S, s: usize, y: &mut [f64], buffer: &mut [f64]) {
         let (begin, width, rows, values) = self.panel(s);
         let height = width + rows.len();
         let (y, _) = y.as_chunks_mut::<LANES>();
@@ -224,34 +234,44 @@ impl Panels<'_> {
         tail.iter_mut().zip(rows).for_each(|(t, &row)| *t = y[row as usize]);
         let mut j = 0;
         while j + 4 <= width {
-            let c: [&[f64]; 4] = std::array::from_fn(|k| &values[(j + k) * height + width..(j + k + 1) * height]);
-            let mut sums = [[0.0; LANES]; 4];
-            for (i, t) in tail.iter().enumerate() {
-                (0..4).for_each(|k| subtract(&mut sums[k], c[k][i], t));
+            let [a, b, c, d] = below(values, height, width, j);
+            let [mut p, mut q, mut r, mut s] = [[0.0; LANES]; 4];
+            for ((((t, a), b), c), d) in tail.iter().zip(a).zip(b).zip(c).zip(d) {
+                subtract(simd, &mut p, *a, t);
+                subtract(simd, &mut q, *b, t);
+                subtract(simd, &mut r, *c, t);
+                subtract(simd, &mut s, *d, t);
             }
-            for (x, sum) in head[j..j + 4].iter_mut().zip(&sums) {
+            for (x, sum) in head[j..j + 4].iter_mut().zip([p, q, r, s]) {
                 x.iter_mut().zip(sum).for_each(|(x, sum)| *x += sum);
             }
             j += 4;
         }
         for j in j..width {
             let column = &values[j * height + width..(j + 1) * height];
-            tail.iter().zip(column).for_each(|(t, l)| subtract(&mut head[j], *l, t));
+            tail.iter().zip(column).for_each(|(t, l)| subtract(simd, &mut head[j], *l, t));
         }
         for j in (0..width).rev() {
             let column = &values[j * height..j * height + width];
             let (x, below) = head[j..].split_at_mut(1);
-            below.iter().zip(&column[j + 1..]).for_each(|(t, l)| subtract(&mut x[0], *l, t));
+            below.iter().zip(&column[j + 1..]).for_each(|(t, l)| subtract(simd, &mut x[0], *l, t));
             x[0].iter_mut().for_each(|x| *x *= self.inverse_diagonal[begin + j]);
         }
         y[begin..begin + width].copy_from_slice(head);
     }
 }
 
+/// R of the columns j … j + 3 of a panel.
+#[inline(always)]
+fn below(values: &[f64], height: usize, width: usize, j: usize) -> [&[f64]; 4] {
+    std::array::from_fn(|k| &values[(j + k) * height + width..(j + k + 1) * height])
+}
+
 /// y ← y − l x.
 #[inline(always)]
-fn subtract(y: &mut [f64; LANES], l: f64, x: &[f64; LANES]) {
-    (0..LANES).for_each(|k| y[k] -= l * x[k]);
+fn subtract<S: Simd>(simd: S, y: &mut [f64; LANES], l: f64, x: &[f64; LANES]) {
+    let ((y, _), (x, _), l) = (S::as_mut_simd_f64s(y), S::as_simd_f64s(x), simd.splat_f64s(l));
+    y.iter_mut().zip(x).for_each(|(y, x)| *y = simd.sub_f64s(*y, simd.mul_f64s(l, *x)));
 }
 
 /// Solves with the lower triangle of four columns at rows j … j + 3.

@@ -49,11 +49,9 @@ fn basis(long: usize, highest: f64) -> (Pencil, Basis) {
     let rows = rows(long);
     let mut krylov = Krylov::new(&pencil, &stiffness, &rows[..long / 4]);
     let ritz = krylov.modes(highest, 2000);
-    let combinations = [
-        Shifted { factor: &stiffness, stiffness: 1.0, mass: 0.0 },
-        Shifted { factor: &step, stiffness: C[0], mass: C[1] },
-    ];
-    let answers = Answers::new(&pencil, &combinations, &rows, long / 4);
+    let mut answers = Answers::default();
+    answers.add(&pencil, Shifted { factor: &stiffness, stiffness: 1.0, mass: 0.0 }, &rows, long / 4);
+    answers.add(&pencil, Shifted { factor: &step, stiffness: C[0], mass: C[1] }, &rows, long / 4);
     let basis = reduce(&answers, &krylov, &ritz, &rows, 0.0);
     (pencil, basis)
 }

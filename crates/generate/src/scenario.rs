@@ -21,9 +21,10 @@ const SPEED: f64 = 250.0;
 /// An ICE 3 of 8 cars over [`cable_stayed`](crate::cable_stayed()), whose file is called `file`: 560 m at 250 km/h in
 /// 8.064 s. Point A is the middle of the main span.
 ///
-/// Damping: 2 % at 0.8 Hz, the first vertical frequency or nearly, and at ten times that.
+/// Damping: 2 % at 0.8 Hz, the first vertical frequency or nearly, and at ten times that. With `highest_frequency` (Hz)
+/// the bridge is reduced to its modes up to there.
 #[must_use]
-pub fn cable_stayed_scenario(model: &Model, file: &str) -> String {
+pub fn cable_stayed_scenario(model: &Model, file: &str, highest_frequency: Option<f64>) -> String {
     let length = model.deck.length;
     let approach = 0.5 * (length - plan::LENGTH);
     let main = |part: f64| approach + part * plan::SPANS[0];
@@ -37,7 +38,7 @@ pub fn cable_stayed_scenario(model: &Model, file: &str) -> String {
     points.extend(top(model).map(|node| format!(r#"{{ "name": "tower", "node": "{node}", "direction": "x" }}"#)));
     let title =
         "ICE 3 (8 cars) over a cable-stayed bridge of shells, 224 m with a girder at either end, ballasted track";
-    scenario(title, file, length, r#"{ "hz": [0.8, 8] }"#, &points)
+    scenario(title, file, length, r#"{ "hz": [0.8, 8] }"#, &points, highest_frequency)
 }
 
 /// An ICE 3 of 8 cars over [`viaduct`](crate::viaduct()) of `spans` girders, whose file is called `file`; points in the
@@ -52,7 +53,7 @@ pub fn viaduct_scenario(model: &Model, spans: usize, file: &str) -> String {
     places.dedup_by_key(|place| place.1);
     let points: Vec<String> = places.iter().map(|(name, i)| at(name, (*i as f64 + 0.5) * span)).collect();
     let title = format!("ICE 3 (8 cars) over a viaduct of {spans} × {span} m, ballasted track");
-    scenario(&title, file, length, r#"{ "first_times": 10 }"#, &points)
+    scenario(&title, file, length, r#"{ "first_times": 10 }"#, &points, None)
 }
 
 fn at(name: &str, x: f64) -> String {
@@ -66,11 +67,20 @@ fn top(model: &Model) -> Option<u32> {
     highest.min_by(|a, b| a.2.abs().total_cmp(&b.2.abs())).map(|node| node.0)
 }
 
-fn scenario(title: &str, file: &str, length: f64, frequencies: &str, points: &[String]) -> String {
+fn scenario(
+    title: &str,
+    file: &str,
+    length: f64,
+    frequencies: &str,
+    points: &[String],
+    highest_frequency: Option<f64>,
+) -> String {
     let way = BRIDGE - FRONT + length + BEHIND[0];
     let end = (way / (SPEED / 3.6) * 1e3 - 1e-6).ceil() / 1e3;
     let bays = ((BRIDGE + length + BEHIND[0] + BEHIND[1]) / SPACING).ceil();
     let file = serde_json::Value::from(file);
+    let reduction = highest_frequency
+        .map_or_else(String::new, |hertz| format!(",\n    \"reduction\": {{ \"highest_frequency\": {hertz} }}"));
     format!(
         r#"{{
   "title": "{title}",
@@ -93,7 +103,7 @@ fn scenario(title: &str, file: &str, length: f64, frequencies: &str, points: &[S
     "damping": {{ "type": "rayleigh", "ratio": 0.02, "at": {frequencies} }},
     "points": [
       {}
-    ]
+    ]{reduction}
   }},
   "time": {{ "step": 1e-3, "end": {end} }}
 }}

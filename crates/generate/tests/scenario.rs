@@ -20,7 +20,7 @@ fn checked(model: &Model, scenario: &str) -> Value {
 #[test]
 fn the_scenario_is_valid_and_the_whole_train_crosses() {
     let model = cable_stayed(&CableStayed { dofs: 12_000, ..CableStayed::default() }).unwrap();
-    let scenario = checked(&model, &cable_stayed_scenario(&model, "bridge.json"));
+    let scenario = checked(&model, &cable_stayed_scenario(&model, "bridge.json", None));
     assert_eq!(scenario["bridge"]["at"], 248);
     assert_eq!(scenario["time"], json!({"step": 1e-3, "end": 8.064}));
     assert_eq!(scenario["track"]["bays"], 1435);
@@ -46,12 +46,16 @@ fn the_scenarios_of_viaducts_are_valid() {
 fn the_example_is_what_the_generator_makes() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples/cable-stayed-120k");
     let model = cable_stayed(&CableStayed::default()).unwrap();
-    let files = [("bridge.json", text(&model)), ("scenario.json", cable_stayed_scenario(&model, "bridge.json"))];
+    let scenario = |highest| cable_stayed_scenario(&model, "bridge.json", highest);
+    let files =
+        [("bridge.json", text(&model)), ("scenario.json", scenario(None)), ("reduced.json", scenario(Some(50.0)))];
     for (name, made) in files {
         if std::env::var_os("TTB_BLESS").is_some() {
             fs::write(folder.join(name), &made).unwrap();
         }
         assert!(fs::read_to_string(folder.join(name)).unwrap() == made, "{name}: run with TTB_BLESS=1");
     }
-    ttb_scenario::load(&folder.join("scenario.json")).unwrap();
+    for name in ["scenario.json", "reduced.json"] {
+        ttb_scenario::load(&folder.join(name)).unwrap();
+    }
 }

@@ -72,6 +72,12 @@ pub struct Imported {
 }
 
 impl Files {
+    /// All files that are named.
+    pub fn names(&self) -> impl Iterator<Item = &str> {
+        let optional = [&self.damping, &self.dofs, &self.nodes, &self.points].into_iter().flatten();
+        [&self.stiffness, &self.mass, &self.supports].into_iter().chain(optional).map(String::as_str)
+    }
+
     /// Reads everything; paths are relative to `folder`.
     ///
     /// # Errors

@@ -1,10 +1,45 @@
 //! The paper's other methods as plain library solvers, to compare the hybrid algorithm with.
 //!
-//! [`monolithic`] is the strongly coupled method (SCM): cars, track and bridge in one time-dependent system, refactorised
-//! in every iteration of every step. It assembles its own matrices from the specifications ([`assembly`]) and shares with the
-//! product only the beam element and the sparse solver, so that it is an independent check of everything between.
+//! | method | what is solved at once | module |
+//! |---|---|---|
+//! | SCM, as in the paper | everything; refactorised every step, as the wheels move | [`scm`] |
+//! | SCM, Schur | everything; constant factors, contacts by their compliance | [`schur`] |
+//! | LCM | train \| track and bridge, iterated on the wheels' forces | [`lcm`] |
+//!
+//! They share the data of a case ([`whole`]), the constant equations of track and bridge ([`constant`]) and the time loop
+//! ([`stepper`], where to start reading).
+//!
+//! [`monolithic`] is the strongly coupled method a second time, as plainly as possible: it assembles its own matrices from
+//! the specifications ([`assembly`]), refactorises in every iteration, and shares with the product only the beam element and
+//! the sparse solver. It is the independent check of everything between.
 
 pub mod assembly;
+pub mod constant;
+pub mod lcm;
 pub mod monolithic;
+pub mod schur;
+pub mod scm;
+pub mod stepper;
+pub mod sweeps;
+pub mod wheels;
+pub mod whole;
 
 pub use monolithic::{History, run};
+pub use stepper::{Method, StepReport, Stepper};
+pub use whole::Whole;
+
+/// Why a reference method cannot go on.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum ReferenceError {
+    /// The case is none that these methods solve.
+    #[error("{0}")]
+    Case(String),
+    /// A step failed.
+    #[error("the step to t = {t} s: {what}")]
+    Step {
+        /// End of the step, s.
+        t: f64,
+        /// What happened.
+        what: String,
+    },
+}

@@ -24,5 +24,5 @@ mod walk;
 
 pub use bundled::default_scenario_text;
 pub use load::{Checked, GRAVITY, from_str, load};
-pub use problem::{Problem, Problems};
+pub use problem::{Problem, Problems, nearest};
 pub use schema::{model_schema, schema};

@@ -12,7 +12,7 @@ use sha2::{Digest, Sha256};
 
 use crate::pieces::Pieces;
 use crate::problem::{Problems, Report};
-use crate::spec::{BridgeSpec, TrainTrackSpec};
+use crate::spec::{BridgeSpec, StructureSpec, TrainTrackSpec};
 use crate::step::Steps;
 use crate::types::{Car, CouplingSettings, Scenario};
 use crate::{check, json, resolve, schema, walk};
@@ -34,8 +34,8 @@ pub struct Checked {
     pub bridge: BridgeSpec,
     /// What is allowed, but rarely meant.
     pub warnings: Vec<String>,
-    /// SHA-256 (hexadecimal) of the two specs and the coupling settings as JSON: of all that decides the result, not of
-    /// the file's layout, titles, or the choice of output.
+    /// SHA-256 (hexadecimal) of the two specs and the coupling settings as JSON and of all imported files: of all that
+    /// decides the result, not of the file's layout, titles, or the choice of output.
     pub hash: String,
     /// Static load of one axle, N, the largest of all cars: the scale of the coupling's tolerance.
     pub axle_load: f64,
@@ -52,6 +52,12 @@ impl Checked {
     pub fn set_steps(&mut self, steps: Steps) {
         (self.train_track.step, self.train_track.substeps, self.bridge.step) = (steps.step, steps.substeps, steps.step);
         self.hash = hash(&self.train_track, &self.bridge, &self.scenario.coupling);
+    }
+
+    /// The train–track output that an input `support[…].force` of the bridge gets: of several sub-steps the mean force.
+    #[must_use]
+    pub fn sent_force(&self, input: &str) -> String {
+        if self.steps().substeps > 1 { input.replace(".force", ".mean_force") } else { input.into() }
     }
 
     /// The iteration's settings.
@@ -120,6 +126,12 @@ fn hash(train_track: &TrainTrackSpec, bridge: &BridgeSpec, coupling: &CouplingSe
     // neither the specs nor this writer can fail to be written
     let written = serde_json::to_writer(&mut digest, &(train_track, bridge, coupling));
     debug_assert!(written.is_ok());
+    if let StructureSpec::Matrices { files, folder, .. } = &bridge.structure {
+        for file in files.names() {
+            // One that cannot be read is reported when the bridge is built.
+            let _ = std::fs::File::open(folder.join(file)).and_then(|mut file| std::io::copy(&mut file, &mut digest));
+        }
+    }
     digest.0.finalize().iter().map(|byte| format!("{byte:02x}")).collect()
 }
 

@@ -147,7 +147,7 @@ fn grouped(number: usize) -> String {
 }
 
 /// The name most like `name`, if one is like it at all.
-pub(crate) fn nearest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Option<String> {
+pub fn nearest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Option<String> {
     /// Below this likeness (0…1) a suggestion would puzzle more than help.
     const LIKE: f64 = 0.5;
     let like = |other: &str| strsim::normalized_damerau_levenshtein(&name.to_lowercase(), &other.to_lowercase());

@@ -155,7 +155,8 @@ pub enum StructureSpec {
     Matrices {
         /// The files.
         files: ttb_import::Files,
-        /// Folder that their paths are relative to.
+        /// Folder that their paths are relative to; where it lies decides nothing.
+        #[serde(skip)]
         folder: PathBuf,
         /// m.
         length: f64,

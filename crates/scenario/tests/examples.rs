@@ -106,6 +106,24 @@ fn the_hash_tells_contents_apart_and_no_layout() {
 }
 
 #[test]
+fn the_hash_covers_imported_files_and_not_where_they_lie() {
+    let text = std::fs::read_to_string(folder().join("r1.json")).unwrap();
+    let mut scenario: serde_json::Value = serde_json::from_str(&text).unwrap();
+    let files = serde_json::json!({ "stiffness": "K.mtx", "mass": "M.mtx", "supports": "supports.csv" });
+    scenario["bridge"]["structure"] = serde_json::json!({ "type": "matrices", "files": files, "length": 32.0 });
+    scenario["bridge"]["points"] = serde_json::json!([]);
+    scenario["bridge"]["damping"] = serde_json::json!({ "type": "none" });
+    let text = scenario.to_string();
+    let hash = |stiffness: &str| {
+        let folder = tempfile::tempdir().unwrap();
+        std::fs::write(folder.path().join("K.mtx"), stiffness).unwrap();
+        from_str(&text, folder.path(), "imported").unwrap_or_else(|p| panic!("{p}")).hash
+    };
+    assert_eq!(hash("1 1 2"), hash("1 1 2"));
+    assert_ne!(hash("1 1 2"), hash("1 1 3"));
+}
+
+#[test]
 fn the_schemas_name_themselves_and_describe_every_field() {
     for schema in [schema(), model_schema()] {
         assert_eq!(schema["$schema"], "https://json-schema.org/draft/2020-12/schema");

@@ -4,10 +4,13 @@ mod common;
 
 use common::{spec, started, value};
 use ttb_coupling::{Instance, Model};
+use ttb_record::Table;
 use ttb_scenario::spec::Profile;
 use ttb_scenario::types::{RailPoint, Ramp, RampShape, Wave};
 use ttb_train_track::TrainTrack;
 use ttb_train_track::car::Car;
+
+const COMMAND: &str = "-p ttb-train-track --test cars";
 
 #[test]
 fn cars_have_their_published_frequencies_on_a_rigid_rail() {
@@ -16,16 +19,20 @@ fn cars_have_their_published_frequencies_on_a_rigid_rail() {
         ("ice3-motor", &[0.8400, 0.9724, 4.782, 4.782, 6.277, 6.281]),
         ("manchester", &[1.0725, 1.2973, 7.419, 7.426, 11.617, 11.617]),
     ];
+    let source = "independent program with the published data of the cars (docs/theory.md, T5 to T7)";
+    let mut table = Table::new("cars on a rigid rail, Hz", source, COMMAND);
     for (name, hertz) in expected {
         let car = Car::new(&ttb_scenario::bundled::cars(name).unwrap()[0]);
-        for (computed, expected) in car.frequencies_on_rigid_rail().iter().zip(hertz) {
-            assert!((computed / expected - 1.0).abs() < 2e-4, "{name}: {computed} Hz, expected {expected}");
+        for (n, (computed, expected)) in (1..).zip(car.frequencies_on_rigid_rail().iter().zip(hertz)) {
+            table.row(format!("{name}, mode {n}"), *expected, *computed, 2e-4);
         }
     }
+    table.finish();
 }
 
 #[test]
 fn static_axle_loads_are_the_published_ones() {
+    let mut table = Table::new("static axle loads, kN", "published data of the cars", COMMAND);
     for (name, kilonewton) in [
         ("ice3-trailer", 143.23),
         ("ice3-motor", 156.96),
@@ -34,8 +41,9 @@ fn static_axle_loads_are_the_published_ones() {
         ("shinkansen-s300", 134.8),
     ] {
         let car = Car::new(&ttb_scenario::bundled::cars(name).unwrap()[0]);
-        assert!((car.axle_load / 1e3 / kilonewton - 1.0).abs() < 5e-4, "{name}: {}", car.axle_load);
+        table.row(name, kilonewton, car.axle_load / 1e3, 5e-4);
     }
+    table.finish();
 }
 
 /// A rough rail under a running car on a moving deck.

@@ -16,6 +16,7 @@ mod states;
 mod steps;
 mod worker;
 
+use std::ffi::OsString;
 use std::path::Path;
 use std::time::Duration;
 
@@ -23,18 +24,20 @@ use ttb_fmi2::import::{DescriptionError, library_path, read_description, unpack}
 
 use crate::cli::Check;
 use crate::error::Error;
+use crate::preload;
 use finding::Finding;
 
 /// The command; in a worker one of its checks.
 pub fn check(arguments: &Check) -> Result<(), Error> {
     if let Some(check) = &arguments.worker {
+        preload::load(&arguments.preload)?;
         return worker::work(check, &arguments.fmu, arguments.report.as_deref().unwrap_or(Path::new("report")));
     }
     std::fs::File::open(&arguments.fmu).map_err(|e| Error::Input(format!("{}: {e}", arguments.fmu.display())))?;
     let patience = Duration::try_from_secs_f64(arguments.timeout).ok().filter(|t| !t.is_zero());
     let patience =
         patience.ok_or_else(|| Error::Input(format!("--timeout is {}; must be positive", arguments.timeout)))?;
-    let found = findings(&arguments.fmu, patience)?;
+    let found = findings(&arguments.fmu, patience, &preload::passed_on(&arguments.preload))?;
     if arguments.json {
         let text = serde_json::to_string_pretty(&found).map_err(|e| Error::Pack(e.to_string()))?;
         say!("{text}");
@@ -47,7 +50,7 @@ pub fn check(arguments: &Check) -> Result<(), Error> {
 }
 
 /// All findings on a file.
-fn findings(fmu: &Path, patience: Duration) -> Result<Vec<Finding>, Error> {
+fn findings(fmu: &Path, patience: Duration, preload: &[OsString]) -> Result<Vec<Finding>, Error> {
     let folder = match unpack(fmu) {
         Ok(folder) => folder,
         Err(error) => return Ok(vec![Finding::error("archive", error.to_string())]),
@@ -68,7 +71,7 @@ fn findings(fmu: &Path, patience: Duration) -> Result<Vec<Finding>, Error> {
         return Ok(found);
     }
     for check in worker::CHECKS {
-        let verdict = process::run(check.name, folder.path(), patience)?;
+        let verdict = process::run(check.name, folder.path(), patience, preload)?;
         let fresh = verdict.findings.iter().any(|finding| finding.severity == finding::Severity::Error);
         for finding in verdict.findings {
             if !found.iter().any(|other| other.same(&finding)) {

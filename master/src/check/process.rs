@@ -1,5 +1,6 @@
 //! A check in a process of its own: it may crash, hang, or end as it likes.
 
+use std::ffi::OsString;
 use std::fs::{self, File};
 use std::os::unix::process::ExitStatusExt;
 use std::path::Path;
@@ -23,8 +24,9 @@ pub const DONE: &str = "done";
 /// Time between two looks at a worker.
 const LOOK: Duration = Duration::from_millis(5);
 
-/// Runs one check on an unpacked FMU; `patience` is how long a single call may take.
-pub fn run(check: &str, folder: &Path, patience: Duration) -> Result<Verdict, Error> {
+/// Runs one check on an unpacked FMU; `patience` is how long a single call may take, `preload` the option
+/// for libraries to load first.
+pub fn run(check: &str, folder: &Path, patience: Duration, preload: &[OsString]) -> Result<Verdict, Error> {
     let place =
         tempfile::Builder::new().prefix("ttb-check-").tempdir().map_err(Error::io(Path::new("temporary folder")))?;
     let file = |name: &str| place.path().join(name);
@@ -33,7 +35,7 @@ pub fn run(check: &str, folder: &Path, patience: Duration) -> Result<Verdict, Er
     let create = |name: &str| File::create(file(name)).map_err(Error::io(&file(name)));
     let program = std::env::current_exe().map_err(Error::io(Path::new("this program")))?;
     let mut command = Command::new(program);
-    command.arg("check").arg("--worker").arg(check).arg("--report").arg(file("report")).arg(folder);
+    command.arg("check").arg("--worker").arg(check).arg("--report").arg(file("report")).args(preload).arg(folder);
     command.current_dir(&cwd).env("TMPDIR", place.path());
     command.stdin(Stdio::null()).stdout(create("stdout")?).stderr(create("stderr")?);
     let child = command.spawn().map_err(Error::io(Path::new("a process for the check")))?;

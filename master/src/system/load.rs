@@ -1,9 +1,11 @@
 //! `ttb run SYSTEM.ssp`: from an archive to two FMUs and how they are connected, or to everything that is wrong with it.
 
+use std::collections::BTreeMap;
 use std::io::Read;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use sha2::{Digest, Sha256};
+use tempfile::TempDir;
 use ttb_fmi2::import::{Fmu, UnpackError, unpack};
 use ttb_fmi2::isolate::Isolation;
 use ttb_ssp::{Report, STRUCTURE, Structure};
@@ -11,7 +13,8 @@ use ttb_ssp::{Report, STRUCTURE, Structure};
 use super::annotation::{self, Settings};
 use super::roles;
 use super::wiring::{Link, links};
-use crate::connect::{Connected, Wire, Wiring, couple, instantiate};
+use crate::assign::Assigned;
+use crate::connect::{Bridge, Connected, Wire, Wiring, couple, instantiate};
 use crate::error::Error;
 use crate::isolate::{self, Isolated};
 use crate::job::{Job, Origin};
@@ -23,9 +26,13 @@ pub struct Opened {
     /// What is allowed, but rarely meant.
     pub warnings: Vec<String>,
     settings: Settings,
-    /// Train–track, bridge: name of the component and FMU.
-    fmus: [(String, Fmu); 2],
-    wiring: Wiring,
+    /// Name of the component and FMU.
+    train_track: (String, Fmu),
+    /// Name of the component and file of the FMU.
+    bridge: (String, PathBuf),
+    assigned: Assigned,
+    /// The archive's files.
+    _folder: TempDir,
 }
 
 /// Whether a file is meant to be a system structure: by its name.
@@ -65,8 +72,10 @@ impl Opened {
         if !report.is_empty() {
             return Err(Error::Input(report.to_string()));
         }
-        let wiring =
-            Wiring { forces: wires(&links, train_track, &fmus), motions: wires(&links, 1 - train_track, &fmus) };
+        let wiring = Wiring {
+            forces: wires(&links, train_track, &fmus, false),
+            motions: wires(&links, 1 - train_track, &fmus, true),
+        };
         let title = structure.system.description.or(structure.description).unwrap_or(structure.name);
         let job = Job {
             title,
@@ -78,25 +87,27 @@ impl Opened {
             end,
             output: settings.output,
         };
-        for (i, wanted) in [(train_track, &isolated.train_track), (1 - train_track, &isolated.bridge)] {
-            if isolation.is_some() && wanted.is_none() {
-                fmus[i] = Fmu::open(&folder.path().join(&components[i].source))?;
-            }
+        if isolation.is_some() && isolated.train_track.is_none() {
+            fmus[train_track] = Fmu::open(&folder.path().join(&components[train_track].source))?;
         }
         let [first, second] = fmus;
-        let mut named = [(components[0].name.clone(), first), (components[1].name.clone(), second)];
-        if train_track == 1 {
-            named.reverse();
-        }
-        Ok(Self { job, warnings, settings, fmus: named, wiring })
+        let bridge = &components[1 - train_track];
+        let train_track = (components[train_track].name.clone(), if train_track == 0 { first } else { second });
+        let bridge = (bridge.name.clone(), folder.path().join(&bridge.source));
+        Ok(Self { job, warnings, settings, train_track, bridge, assigned: wiring.into(), _folder: folder })
     }
 
-    /// Both FMUs in initialization mode, connected.
-    pub fn connect(&self) -> Result<Connected, Error> {
-        let [train_track, bridge] = [0, 1].map(|i| instantiate(&self.fmus[i].1, &self.fmus[i].0, self.job.end));
+    /// Both FMUs in initialization mode, connected; see [`crate::connect::connect`].
+    pub fn connect(&self, isolated: &Isolated, trusted: bool) -> Result<Connected, Error> {
+        let (name, fmu) = &self.train_track;
+        let none = BTreeMap::new();
+        let train_track = instantiate(fmu, name, self.job.end, &none)?;
+        let (name, path) = &self.bridge;
+        let bridge = Bridge::open(path, name, isolated.bridge.as_ref(), self.job.end, &none)?;
         let Settings { coupling, force_scale, substeps, .. } = &self.settings;
         let settings = coupling.settings(*force_scale, *substeps);
-        couple(train_track?, bridge?, &self.wiring, settings, coupling.send, self.warnings.clone())
+        let parts = vec![(Bridge { trusted, ..bridge }, self.assigned.clone())];
+        couple(train_track, parts, settings, coupling.send, self.job.step, self.warnings.clone())
     }
 }
 
@@ -152,17 +163,20 @@ fn times(structure: &Structure, settings: &Settings, fmus: &[&Fmu; 2], report: &
     (step, end)
 }
 
-/// The links from a component, in the order of the inputs they lead to, as where equal names are connected.
-fn wires(links: &[Link], from: usize, fmus: &[Fmu; 2]) -> Vec<Wire> {
+/// The links from a component, in the order of the inputs they lead to, as where equal names are connected. The iteration
+/// sees what the train–track side sees, in SI: a transformation is the bridge's, whichever way it leads.
+fn wires(links: &[Link], from: usize, fmus: &[Fmu; 2], from_bridge: bool) -> Vec<Wire> {
     let inputs = fmus[1 - from].description().with_causality("input");
     let order: std::collections::HashMap<&str, usize> = inputs.enumerate().map(|(i, v)| (v.name.as_str(), i)).collect();
     let mut links: Vec<&Link> = links.iter().filter(|link| link.from == from).collect();
     links.sort_by_key(|link| order.get(link.input.as_str()));
-    let wire = |link: &Link| Wire {
-        output: link.output.clone(),
-        input: link.input.clone(),
-        from_output: link.to_si,
-        to_input: link.from_si,
+    let wire = |link: &Link| {
+        let (from_output, to_input) = if from_bridge {
+            (link.to_si.then(link.from_si).then(link.input_to_si), link.input_to_si.inverse())
+        } else {
+            (link.to_si, link.from_si)
+        };
+        Wire { output: link.output.clone(), input: link.input.clone(), from_output, to_input }
     };
     links.into_iter().map(wire).collect()
 }

@@ -21,6 +21,8 @@ pub struct Link {
     pub to_si: Linear,
     /// From SI to the input's unit, transformation included.
     pub from_si: Linear,
+    /// From the input's unit to SI.
+    pub input_to_si: Linear,
     /// Whether it carries forces.
     pub is_force: bool,
 }
@@ -192,6 +194,7 @@ fn link(connection: &Connection, start: &End, end: &End, report: &mut Report) ->
             factor: f * (scale / from.factor),
             offset: f * (shift - scale * from.offset / from.factor) + o,
         },
+        input_to_si: end.unit.map_or(Linear::IDENTITY, |to| Linear { factor: to.factor, offset: to.offset }),
         is_force: from.powers == NEWTON,
     })
 }

@@ -39,7 +39,7 @@ pub enum LibraryError {
 /// The library of an FMU built with PythonFMU takes its Python from the process.
 fn hint(message: &str) -> &'static str {
     if message.contains("undefined symbol: _Py") || message.contains("undefined symbol: Py") {
-        "; start the program with LD_PRELOAD=libpython3.11.so.1.0 (the version the FMU was built for)"
+        "; it wants Python's library in the program: --preload libpython3.11.so.1.0 (of the version it was built for)"
     } else {
         ""
     }

@@ -31,6 +31,6 @@ pub use library::{LibraryError, library_path, platforms, preload};
 pub use messages::Message;
 pub use reader::{DescriptionError, read_description};
 pub use state::StateSlot;
-pub use subsystem::FmuSubsystem;
+pub use subsystem::{Another, FmuSubsystem};
 pub use transform::Linear;
 pub use unpack::{Limits, UnpackError, unpack, unpack_within};

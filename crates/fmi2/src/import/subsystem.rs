@@ -8,6 +8,9 @@ use super::transform::{Linear, Transform};
 use ttb_coupling::work::WORK;
 use ttb_coupling::{Failure, Subsystem};
 
+/// Makes an instance like a coupled one, coupled alike and in initialization mode.
+pub type Another = Box<dyn Fn() -> Result<FmuSubsystem, FmuError> + Send>;
+
 /// An instance with the value references of its coupled variables, in the order of the connections. Everything the
 /// iteration needs is allocated here, once.
 pub struct FmuSubsystem {
@@ -18,6 +21,8 @@ pub struct FmuSubsystem {
     work: Option<u32>,
     slot: StateSlot,
     transform: Option<Transform>,
+    roll_back: bool,
+    another: Option<Another>,
     /// Time the outputs belong to in s, for messages.
     time: f64,
 }
@@ -45,7 +50,17 @@ impl FmuSubsystem {
         let work = instance.description().variable(WORK);
         let work = work.filter(|v| v.kind == VariableType::Real && v.causality == "output").map(|v| v.value_reference);
         let slot = instance.new_slot();
-        Ok(Self { orders: vec![1; inputs.len()], inputs, outputs, work, slot, instance, transform: None, time: 0.0 })
+        let roll_back = instance.can_restore();
+        let (orders, transform, another) = (vec![1; inputs.len()], None, None);
+        Ok(Self { orders, inputs, outputs, work, slot, instance, transform, roll_back, another, time: 0.0 })
+    }
+
+    /// Never saves or restores, whatever the FMU promises; `another` makes instances to be tried and thrown away in its
+    /// place, if there may be more than one.
+    #[must_use]
+    pub fn without_roll_back(mut self, another: Option<Another>) -> Self {
+        (self.roll_back, self.another) = (false, another);
+        self
     }
 
     /// Lets inputs and outputs pass through lines, in the order of the connections.
@@ -144,7 +159,15 @@ impl Subsystem for FmuSubsystem {
     }
 
     fn can_roll_back(&self) -> bool {
-        self.instance.can_restore()
+        self.roll_back
+    }
+
+    fn understudy(&mut self, inputs: &[f64]) -> Result<Option<Box<dyn Subsystem>>, Failure> {
+        let Some(another) = &self.another else { return Ok(None) };
+        let mut understudy = another().map_err(|e| self.failure(&e))?;
+        understudy.set_inputs(inputs, None)?;
+        understudy.exit_initialization()?;
+        Ok(Some(Box::new(understudy)))
     }
 
     fn can_derive(&self) -> bool {

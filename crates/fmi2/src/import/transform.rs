@@ -13,6 +13,18 @@ impl Linear {
     /// What changes nothing, not a bit.
     pub const IDENTITY: Self = Self { factor: 1.0, offset: 0.0 };
 
+    /// This line, then `next`.
+    #[must_use]
+    pub fn then(self, next: Self) -> Self {
+        Self { factor: next.factor * self.factor, offset: next.factor * self.offset + next.offset }
+    }
+
+    /// The way back.
+    #[must_use]
+    pub fn inverse(self) -> Self {
+        Self { factor: self.factor.recip(), offset: -self.offset / self.factor }
+    }
+
     fn apply(self, x: f64) -> f64 {
         if self == Self::IDENTITY { x } else { self.factor * x + self.offset }
     }

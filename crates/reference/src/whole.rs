@@ -1,0 +1,253 @@
+//! A case: cars, track, bridge, contacts, irregularity and the state they start from.
+//!
+//! The unknowns of track and bridge are numbered [track | bridge], the track as [`Track`] numbers itself, the bridge as its
+//! finite-element model does: all degrees of freedom, whatever reduction the scenario asks for.
+
+use std::path::Path;
+
+use ttb_bridge::assembled::Assembled;
+use ttb_bridge::deck::Row;
+use ttb_bridge::{imported, plane, space};
+use ttb_coupling::Instance;
+use ttb_dynamics::damping::rayleigh;
+use ttb_dynamics::factor::Layout;
+use ttb_dynamics::modes::lowest;
+use ttb_dynamics::newmark::Motion;
+use ttb_dynamics::sparse::Pencil;
+use ttb_scenario::spec::{BridgeSpec, StructureSpec, TrainTrackSpec};
+use ttb_scenario::travel::wheel_offsets;
+use ttb_scenario::types::{Damping, Newmark, RayleighAt, Spring, Support};
+use ttb_train_track::TrainTrack;
+use ttb_train_track::car::{AXLES, Car};
+use ttb_train_track::contact::Law;
+use ttb_train_track::profile::Irregularity;
+use ttb_train_track::speed::Running;
+use ttb_train_track::track::{FastenerFactors, Track};
+
+use crate::ReferenceError;
+use crate::constant;
+use crate::wheels::Wheels;
+
+/// The bridge in all its degrees of freedom.
+pub struct Bridge {
+    /// K, M and the dashpots' C.
+    pub pencil: Pencil,
+    /// Rayleigh's α, 1/s, and β, s.
+    pub rayleigh: (f64, f64),
+    /// Displacement under every support, as weights on degrees of freedom.
+    pub supports: Vec<Row>,
+    /// The monitored points alike.
+    pub points: Vec<Row>,
+}
+
+/// Displacements, velocities and accelerations of all, and the contact forces.
+#[derive(Clone, Debug)]
+pub struct State {
+    /// The track.
+    pub track: Motion,
+    /// The bridge.
+    pub bridge: Motion,
+    /// The cars, 10 degrees of freedom each.
+    pub cars: Motion,
+    /// Contact force of every axle, N.
+    pub forces: Vec<f64>,
+    /// Approach s = δ + c_loc F of every axle, m.
+    pub approach: Vec<f64>,
+}
+
+/// All that does not depend on the step.
+pub struct Whole {
+    /// The track; its base springs stand on the ground until the bridge is put under them.
+    pub track: Track,
+    /// Springs between track and bridge.
+    pub base: Spring,
+    /// Cars from the front.
+    pub cars: Vec<Car>,
+    /// Laws of the contacts, and where the wheels are.
+    pub wheels: Wheels,
+    /// The bridge.
+    pub bridge: Bridge,
+    /// γ and β.
+    pub newmark: Newmark,
+    /// Helps to order the elimination of track and bridge.
+    pub layout: Layout,
+    /// At t = 0.
+    pub start: State,
+    /// Greatest static axle load, N.
+    pub axle_load: f64,
+}
+
+impl Whole {
+    /// Assembles a case and finds its static equilibrium; the cars are pre-rolled as in the product.
+    ///
+    /// # Errors
+    /// Modal damping, matrices that cannot be factorised, data that a subsystem refuses.
+    pub fn new(train: &TrainTrackSpec, spec: &BridgeSpec) -> Result<Self, ReferenceError> {
+        let assembled = match &spec.structure {
+            StructureSpec::Beams { .. } | StructureSpec::Frame(_) => plane::assemble(spec),
+            StructureSpec::FiniteElements(model) => space::assemble(model, &spec.supports, &spec.points),
+            StructureSpec::Matrices { files, folder, .. } => {
+                imported::assemble(files, Path::new(folder), &spec.supports)
+            }
+            StructureSpec::Stored => return Err(case("a stored bridge has no equations to compare with")),
+        };
+        let assembled = assembled.map_err(case)?;
+        let track = Track::new(train, FastenerFactors { stiffness: 1.0, damping: 1.0 });
+        let layout = layout(train, &track, &assembled);
+        let Assembled { equations, nodes, node_of, supports, monitors, points, .. } = assembled;
+        let own = Layout { node_of, place: nodes, ..Layout::default() };
+        let pencil = equations.finish_with(&own).map_err(case)?;
+        let rayleigh = damping(&spec.damping, &pencil)?;
+        let points = points.iter().map(|p| monitors[p.motion].clone()).collect();
+        let cars: Vec<Car> = train.cars.iter().map(Car::new).collect();
+        let axle_load = cars.iter().map(|c| c.axle_load).fold(0.0, f64::max);
+        let laws = cars.iter().flat_map(|c| [Law::new(&train.contact, c.axle_load); AXLES]).collect();
+        let length: f64 = train.cars.iter().map(|c| c.length).sum();
+        let before = if train.pre_roll > 0.0 { train.pre_roll + length } else { 0.0 };
+        let way = [train.front_wheel - before, track.extent().1];
+        let irregularity = Irregularity::new(&train.irregularity, train.irregularity_scale, way, None);
+        let running = Running::new(&train.speed, 1.0);
+        let wheels = Wheels::new(laws, wheel_offsets(&train.cars), train.front_wheel, running, irregularity);
+        let (n, ndof) = (track.order(), pencil.ndof());
+        let axles = vec![0.0; cars.len() * AXLES];
+        let start = State {
+            track: Motion::rest(n),
+            bridge: Motion::rest(ndof),
+            cars: Motion::rest(cars.len() * 10),
+            forces: axles.clone(),
+            approach: axles,
+        };
+        let bridge = Bridge { pencil, rayleigh, supports, points };
+        let (base, newmark) = (base(&train.track.support), train.newmark);
+        let mut whole = Self { track, base, cars, wheels, bridge, newmark, layout, start, axle_load };
+        whole.rest(train)?;
+        Ok(whole)
+    }
+
+    /// Degrees of freedom of track and bridge.
+    pub fn order(&self) -> usize {
+        self.track.order() + self.bridge.pencil.ndof()
+    }
+
+    /// Degrees of freedom of the rail.
+    pub fn rail(&self) -> impl Iterator<Item = u32> {
+        (0..self.track.nodes()).map(|node| self.track.node_dof(node) as u32).flat_map(|dof| [dof, dof + 1])
+    }
+
+    /// Deck displacement under every support.
+    pub fn deck(&self, u: &[f64]) -> Vec<f64> {
+        self.bridge.supports.iter().map(|row| dot(row, u)).collect()
+    }
+
+    /// Static equilibrium. Every axle carries its static load then, whatever the rail looks like: each car's ten equations
+    /// leave no choice. The train–track subsystem of the product adds the cars' state, pre-roll included.
+    fn rest(&mut self, train: &TrainTrackSpec) -> Result<(), ReferenceError> {
+        self.wheels.place(&self.track, 0.0).map_err(case)?;
+        let n = self.track.order();
+        let pencil = constant::equations(self, 0.0, 0.0).finish_with(&self.layout).map_err(case)?;
+        if let Some(order) = pencil.order() {
+            self.layout.order = order.to_vec();
+        }
+        let factor = pencil.factor(1.0, 0.0, 0.0).map_err(case)?;
+        drop(pencil);
+        let mut u = vec![0.0; self.order()];
+        let loads = self.cars.iter().flat_map(|car| [car.axle_load; AXLES]);
+        for (point, load) in self.wheels.points.iter().zip(loads) {
+            self.track.add_force(point, load, &mut u[..n]);
+        }
+        factor.solve_in_place(&mut u, &mut vec![0.0; self.order()]);
+        let mut motion = self.deck(&u[n..]);
+        motion.resize(2 * motion.len(), 0.0);
+        let mut instance = Instance::new(TrainTrack::new(train.clone()).map_err(case)?);
+        let inputs: Vec<u32> = (0..motion.len() as u32).collect();
+        instance.enter_initialization(0.0).map_err(case)?;
+        instance.set(&inputs, &motion).map_err(case)?;
+        instance.exit_initialization().map_err(case)?;
+        let state = ttb_coupling::Model::save(instance.model());
+        self.start.track = state.track.clone();
+        self.start.cars = state.cars.clone();
+        self.start.bridge.u = u.split_off(n);
+        self.start.forces.clone_from(&state.forces);
+        for (axle, approach) in self.start.approach.iter_mut().enumerate() {
+            *approach = state.delta[axle] + self.wheels.points[axle].local_compliance * state.forces[axle];
+        }
+        Ok(())
+    }
+}
+
+/// A row times a vector.
+pub fn dot(row: &Row, u: &[f64]) -> f64 {
+    row.iter().map(|(dof, weight)| weight * u[*dof as usize]).sum()
+}
+
+fn case(why: impl std::fmt::Display) -> ReferenceError {
+    ReferenceError::Case(why.to_string())
+}
+
+/// The lowest spring of a support.
+fn base(support: &Support) -> Spring {
+    match support {
+        Support::SingleLayer { fastener } => *fastener,
+        Support::TwoLayer { ballast, .. } => *ballast,
+        Support::ThreeLayer { sub_ballast, .. } => *sub_ballast,
+    }
+}
+
+/// α and β.
+fn damping(damping: &Damping, pencil: &Pencil) -> Result<(f64, f64), ReferenceError> {
+    let Damping::Rayleigh { ratio, at } = damping else {
+        return match damping {
+            Damping::None => Ok((0.0, 0.0)),
+            _ => Err(case(
+                "bridge.damping is modal; the strongly and loosely coupled methods know Rayleigh damping only",
+            )),
+        };
+    };
+    let omega = |count: usize| -> Result<Vec<f64>, ReferenceError> {
+        let factor = pencil.factor(1.0, 0.0, 0.0).map_err(case)?;
+        Ok(lowest(pencil, &factor, count).map_err(case)?.omega2.iter().map(|w2| w2.sqrt()).collect())
+    };
+    let pair = match at {
+        RayleighAt::Hz(pair) => pair.map(|hz| std::f64::consts::TAU * hz),
+        RayleighAt::FirstTimes(times) => omega(1)?.first().map_or([0.0; 2], |first| [*first, times * first]),
+        RayleighAt::Modes(numbers) => {
+            let omega = omega(numbers[0].max(numbers[1]))?;
+            numbers.map(|j| j.checked_sub(1).and_then(|j| omega.get(j)).copied().unwrap_or(0.0))
+        }
+    };
+    if pair.iter().all(|omega| *omega > 0.0) {
+        Ok(rayleigh(*ratio, pair))
+    } else {
+        Err(case("bridge: the two frequencies of Rayleigh damping must be positive"))
+    }
+}
+
+/// Nodes, their places and what to eliminate last, the rail: the sweeps of a trial then stay short.
+fn layout(train: &TrainTrackSpec, track: &Track, bridge: &Assembled) -> Layout {
+    let n = track.order() as u32;
+    let bays = train.bays + 1;
+    let stride = (track.order() - 1) / train.bays.max(1);
+    let bridge_nodes = bridge.node_of.iter().max().map_or(0, |node| node + 1).max(bridge.nodes.len() as u32);
+    let bay_of = |dof: u32| (dof as usize / stride.max(1)).min(bays - 1) as u32;
+    let node_of = (0..n).map(|dof| bridge_nodes + bay_of(dof)).chain(bridge.node_of.iter().copied()).collect();
+    let last = (0..track.nodes()).flat_map(|node| [track.node_dof(node), track.node_dof(node) + 1]);
+    let mut place = bridge.nodes.clone();
+    let under =
+        |row: &Row| row.first().and_then(|(dof, _)| bridge.nodes.get(*bridge.node_of.get(*dof as usize)? as usize));
+    let known: Option<Vec<[f64; 3]>> = bridge.supports.iter().map(|row| under(row).copied()).collect();
+    if let (Some(known), [first, .., last]) = (known.filter(|known| known.len() > 1), &train.on_bridge[..]) {
+        // Off the bridge the track goes on as straight as it lies on it.
+        let (a, b) = (known[0], known[known.len() - 1]);
+        let along: [f64; 3] = std::array::from_fn(|i| (b[i] - a[i]) / (*last - *first) as f64);
+        place.extend((0..bays).map(|bay| {
+            let at = train.on_bridge.partition_point(|on| *on < bay).min(known.len() - 1);
+            let ahead = bay as f64 - train.on_bridge[at] as f64;
+            std::array::from_fn(|i| known[at][i] + ahead * along[i])
+        }));
+    } else {
+        place.clear();
+    }
+    // A light bridge costs nothing, and the rail left for last would fill.
+    let last = if bridge.equations.ndof() > track.order() { last.map(|dof| dof as u32).collect() } else { Vec::new() };
+    Layout { node_of, place, last, order: Vec::new() }
+}
