@@ -10,6 +10,7 @@
 //! v is the row of a base spring between track and deck, k̂ = k + a₁c: K_b is never multiplied with (as in
 //! `ttb_bridge::full`).
 
+use ttb_bridge::system::Law;
 use ttb_dynamics::newmark::{Motion, Newmark};
 use ttb_dynamics::sparse::Assembly;
 
@@ -19,7 +20,7 @@ use crate::whole::{Whole, dot};
 
 /// K + a₀M + a₁C of track and bridge, in the stiffness part of an assembly.
 pub fn equations(whole: &Whole, a0: f64, a1: f64) -> Assembly {
-    let (n, (alpha, beta)) = (whole.track.order() as u32, whole.bridge.rayleigh);
+    let (n, Law { alpha, beta, .. }) = (whole.track.order() as u32, &whole.bridge.law);
     let mut assembly = Assembly::new(whole.order());
     let band = whole.track.effective(a0, a1);
     for i in 0..n as usize {
@@ -78,9 +79,7 @@ impl History {
     /// From the motions a step begins with.
     pub fn begin(&mut self, whole: &Whole, newmark: &Newmark, track: &Motion, bridge: &Motion) {
         let Self { load, known, work, track_work } = self;
-        let ([a0, a1, ..], (alpha, beta)) = (newmark.a, whole.bridge.rayleigh);
-        let (c_k, c_m) = (1.0 + a1 * beta, a0 + a1 * alpha);
-        let rate = alpha - c_m * beta / c_k;
+        let [rate, dashpots, share] = whole.bridge.law.history(newmark);
         let (p_t, p_b) = load.split_at_mut(whole.track.order());
         whole.track.history(newmark, track, p_t, track_work);
         let motion = bridge.u.iter().zip(&bridge.v).zip(&bridge.a);
@@ -91,13 +90,12 @@ impl History {
         }
         let pencil = &whole.bridge.pencil;
         pencil.add_mass(work, p_b);
-        let share = beta / c_k;
         if pencil.has_dashpots() {
-            work.iter_mut().zip(&*known).for_each(|(w, q)| *w = (1.0 - a1 * share) * q);
+            work.iter_mut().zip(&*known).for_each(|(w, q)| *w = dashpots * q);
             pencil.add_damping(work, p_b);
         }
         let damping = whole.base.damping;
-        let stiffness = share * (whole.base.stiffness + a1 * damping);
+        let stiffness = share * (whole.base.stiffness + newmark.a[1] * damping);
         for ((_, base), row) in whole.track.bridge_bases().zip(&whole.bridge.supports) {
             let deck = dot(row, known);
             // Of the dashpot's force the track has counted its own part already, as if it stood on the ground.

@@ -10,8 +10,9 @@
 //! Y_r) = 1 of a single wheel. With eigenvalues from μ to ρ the iteration contracts by max |1 − ω (1 + μ)|, |1 − ω (1 + ρ)|,
 //! least for ω = 2/(2 + μ + ρ).
 
+use ttb_train_track::car::wheel;
+
 use crate::stepper::Trial;
-use crate::wheels::wheel;
 
 /// Trials of a step at most.
 const MOST: usize = 500;

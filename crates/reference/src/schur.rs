@@ -7,10 +7,11 @@
 //!
 //! N K̂⁻¹ Nᵀ = (L⁻¹Nᵀ)ᵀ (L⁻¹Nᵀ) costs one short forward sweep an axle, since the rail is eliminated last.
 
+use ttb_train_track::car::wheel;
 use ttb_train_track::contact::Contacts;
 
 use crate::stepper::Trial;
-use crate::wheels::{Wheels, wheel};
+use crate::wheels::Wheels;
 
 /// Contacts of all axles.
 pub struct Schur {

@@ -16,9 +16,10 @@ use ttb_dynamics::factor::{Factor, Layout, Symbolic};
 
 use crate::constant;
 use crate::sweeps::Sweeps;
-use crate::wheels::{Wheels, wheel};
+use crate::wheels::Wheels;
 use crate::whole::Whole;
 use ttb_dynamics::newmark::Newmark;
+use ttb_train_track::car::wheel;
 
 /// The factor's pattern has room for so many metres of way.
 const STRETCH: f64 = 10.0;

@@ -6,9 +6,8 @@
 //! 3  u₁ = g + K̂⁻¹ (p′ + Nᵀ F),   q₁ = q_free − K̂_c⁻¹ Bᵀ F,   Newmark's velocities and accelerations
 //! ```
 
-use nalgebra::SMatrix;
 use ttb_dynamics::newmark::{Motion, Newmark};
-use ttb_train_track::car::{AXLES, DOFS, Matrix10, Vector10};
+use ttb_train_track::car::{AXLES, DOFS, Matrix10, add_wheel_compliance, press};
 
 use crate::ReferenceError;
 use crate::constant::{History, factorised};
@@ -16,7 +15,7 @@ use crate::lcm::Lcm;
 use crate::schur::Schur;
 use crate::scm::Scm;
 use crate::sweeps::Sweeps;
-use crate::wheels::{Wheels, wheel};
+use crate::wheels::Wheels;
 use crate::whole::{State, Whole, dot};
 
 /// Which method.
@@ -174,14 +173,8 @@ impl<'a> Stepper<'a> {
 
     /// p_c and q_free of all cars.
     fn begin_cars(&mut self) {
-        let (newmark, motion) = (&self.newmark, &self.state.cars);
         for (c, (car, inverse)) in self.whole.cars.iter().zip(&self.cars).enumerate() {
-            let own = c * DOFS..(c + 1) * DOFS;
-            let of = |x: &[f64]| Vector10::from_column_slice(&x[own.clone()]);
-            let (u, v, a) = (of(&motion.u), of(&motion.v), of(&motion.a));
-            let inertia = u.zip_zip_map(&v, &a, |u, v, a| newmark.inertia(u, v, a));
-            let damping = u.zip_zip_map(&v, &a, |u, v, a| newmark.damping(u, v, a));
-            let p = car.weight() + car.mass.component_mul(&inertia) + car.damping * damping;
+            let (own, p) = (c * DOFS..(c + 1) * DOFS, car.history(&self.newmark, &self.state.cars, c));
             self.cars_load[own.clone()].copy_from_slice(p.as_slice());
             self.cars_free[own].copy_from_slice((inverse * p).as_slice());
         }
@@ -271,12 +264,7 @@ impl Trial<'_> {
 
     /// The cars alone.
     pub fn press_cars(&mut self, forces: &[f64]) {
-        for (c, inverse) in self.cars.iter().enumerate() {
-            let mut pressed = Vector10::zeros();
-            (0..AXLES).for_each(|i| pressed[wheel(i)] = forces[c * AXLES + i]);
-            let by = inverse * pressed;
-            (0..DOFS).for_each(|i| self.moved[c * DOFS + i] = self.cars_free[c * DOFS + i] - by[i]);
-        }
+        press(self.cars, self.cars_free, forces, self.moved);
     }
 
     /// A degree of freedom of the cars.
@@ -301,11 +289,6 @@ impl Trial<'_> {
         };
         let rows: Vec<Vec<(u32, f64)>> = (0..n).map(row).collect();
         self.sweeps.compliance(&rows, y);
-        for (c, inverse) in self.cars.iter().enumerate() {
-            let own: SMatrix<f64, AXLES, AXLES> = inverse.fixed_view::<AXLES, AXLES>(wheel(0), wheel(0)).into();
-            for i in 0..AXLES {
-                (0..AXLES).for_each(|j| y[(c * AXLES + i) * n + c * AXLES + j] += own[(i, j)]);
-            }
-        }
+        add_wheel_compliance(self.cars, y);
     }
 }

@@ -1,6 +1,5 @@
 //! The wheels: where they stand, and how the contact of each, in series with the rail's local compliance, answers.
 
-use ttb_train_track::car::{AXLES, DOFS, FIRST_WHEEL};
 use ttb_train_track::contact::Law;
 use ttb_train_track::profile::Irregularity;
 use ttb_train_track::speed::Running;
@@ -96,9 +95,4 @@ impl Wheels {
             load.extend(dofs.iter().zip(point.row).map(|(dof, n)| (*dof as u32, n * force)));
         }
     }
-}
-
-/// Degree of freedom of an axle among the cars'.
-pub fn wheel(axle: usize) -> usize {
-    axle / AXLES * DOFS + FIRST_WHEEL + axle % AXLES
 }

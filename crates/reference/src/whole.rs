@@ -7,19 +7,19 @@ use std::path::Path;
 
 use ttb_bridge::assembled::Assembled;
 use ttb_bridge::deck::Row;
-use ttb_bridge::{imported, plane, space};
+use ttb_bridge::system::Law;
+use ttb_bridge::{imported, plane, space, structure};
 use ttb_coupling::Instance;
-use ttb_dynamics::damping::rayleigh;
 use ttb_dynamics::factor::Layout;
 use ttb_dynamics::modes::lowest;
 use ttb_dynamics::newmark::Motion;
 use ttb_dynamics::sparse::Pencil;
 use ttb_scenario::spec::{BridgeSpec, StructureSpec, TrainTrackSpec};
 use ttb_scenario::travel::wheel_offsets;
-use ttb_scenario::types::{Damping, Newmark, RayleighAt, Spring, Support};
+use ttb_scenario::types::{Damping, Newmark, Spring, Support};
 use ttb_train_track::TrainTrack;
 use ttb_train_track::car::{AXLES, Car};
-use ttb_train_track::contact::Law;
+use ttb_train_track::contact::Law as Contact;
 use ttb_train_track::profile::Irregularity;
 use ttb_train_track::speed::Running;
 use ttb_train_track::track::{FastenerFactors, Track};
@@ -32,8 +32,8 @@ use crate::wheels::Wheels;
 pub struct Bridge {
     /// K, M and the dashpots' C.
     pub pencil: Pencil,
-    /// Rayleigh's α, 1/s, and β, s.
-    pub rayleigh: (f64, f64),
+    /// Rayleigh's α and β; no factors.
+    pub law: Law,
     /// Displacement under every support, as weights on degrees of freedom.
     pub supports: Vec<Row>,
     /// The monitored points alike.
@@ -97,11 +97,11 @@ impl Whole {
         let Assembled { equations, nodes, node_of, supports, monitors, points, .. } = assembled;
         let own = Layout { node_of, place: nodes, ..Layout::default() };
         let pencil = equations.finish_with(&own).map_err(case)?;
-        let rayleigh = damping(&spec.damping, &pencil)?;
+        let law = law(&spec.damping, &pencil)?;
         let points = points.iter().map(|p| monitors[p.motion].clone()).collect();
         let cars: Vec<Car> = train.cars.iter().map(Car::new).collect();
         let axle_load = cars.iter().map(|c| c.axle_load).fold(0.0, f64::max);
-        let laws = cars.iter().flat_map(|c| [Law::new(&train.contact, c.axle_load); AXLES]).collect();
+        let laws = cars.iter().flat_map(|c| [Contact::new(&train.contact, c.axle_load); AXLES]).collect();
         let length: f64 = train.cars.iter().map(|c| c.length).sum();
         let before = if train.pre_roll > 0.0 { train.pre_roll + length } else { 0.0 };
         let way = [train.front_wheel - before, track.extent().1];
@@ -117,7 +117,7 @@ impl Whole {
             forces: axles.clone(),
             approach: axles,
         };
-        let bridge = Bridge { pencil, rayleigh, supports, points };
+        let bridge = Bridge { pencil, law, supports, points };
         let (base, newmark) = (base(&train.track.support), train.newmark);
         let mut whole = Self { track, base, cars, wheels, bridge, newmark, layout, start, axle_load };
         whole.rest(train)?;
@@ -193,33 +193,22 @@ fn base(support: &Support) -> Spring {
     }
 }
 
-/// α and β.
-fn damping(damping: &Damping, pencil: &Pencil) -> Result<(f64, f64), ReferenceError> {
-    let Damping::Rayleigh { ratio, at } = damping else {
-        return match damping {
-            Damping::None => Ok((0.0, 0.0)),
-            _ => Err(case(
+/// The bridge's damping, in all degrees of freedom.
+fn law(damping: &Damping, pencil: &Pencil) -> Result<Law, ReferenceError> {
+    let ratio = match *damping {
+        Damping::None => 0.0,
+        Damping::Rayleigh { ratio, .. } => ratio,
+        Damping::Modal { .. } => {
+            return Err(case(
                 "bridge.damping is modal; the strongly and loosely coupled methods know Rayleigh damping only",
-            )),
-        };
-    };
-    let omega = |count: usize| -> Result<Vec<f64>, ReferenceError> {
-        let factor = pencil.factor(1.0, 0.0, 0.0).map_err(case)?;
-        Ok(lowest(pencil, &factor, count).map_err(case)?.omega2.iter().map(|w2| w2.sqrt()).collect())
-    };
-    let pair = match at {
-        RayleighAt::Hz(pair) => pair.map(|hz| std::f64::consts::TAU * hz),
-        RayleighAt::FirstTimes(times) => omega(1)?.first().map_or([0.0; 2], |first| [*first, times * first]),
-        RayleighAt::Modes(numbers) => {
-            let omega = omega(numbers[0].max(numbers[1]))?;
-            numbers.map(|j| j.checked_sub(1).and_then(|j| omega.get(j)).copied().unwrap_or(0.0))
+            ));
         }
     };
-    if pair.iter().all(|omega| *omega > 0.0) {
-        Ok(rayleigh(*ratio, pair))
-    } else {
-        Err(case("bridge: the two frequencies of Rayleigh damping must be positive"))
-    }
+    let omega2 = match structure::modes_needed(damping, None) {
+        0 => Vec::new(),
+        count => lowest(pencil, &pencil.factor(1.0, 0.0, 0.0).map_err(case)?, count).map_err(case)?.omega2,
+    };
+    structure::law(damping, &omega2, ratio, 1.0, 1.0).map_err(case)
 }
 
 /// Nodes, their places and what to eliminate last, the rail: the sweeps of a trial then stay short.

@@ -7,7 +7,7 @@
 //! ```
 
 use nalgebra::SMatrix;
-use ttb_dynamics::newmark::Newmark;
+use ttb_dynamics::newmark::{Motion, Newmark};
 use ttb_scenario::GRAVITY;
 use ttb_scenario::types::Car as CarData;
 
@@ -77,6 +77,15 @@ impl Car {
         effective.cholesky().map(|c| c.inverse())
     }
 
+    /// p of a step of car `c`, from the motion of all cars at its begin; weight included, N.
+    pub fn history(&self, newmark: &Newmark, old: &Motion, c: usize) -> Vector10 {
+        let of = |values: &[f64]| Vector10::from_column_slice(&values[c * DOFS..(c + 1) * DOFS]);
+        let (u, v, a) = (of(&old.u), of(&old.v), of(&old.a));
+        let inertia = u.zip_zip_map(&v, &a, |u, v, a| newmark.inertia(u, v, a));
+        let damping = u.zip_zip_map(&v, &a, |u, v, a| newmark.damping(u, v, a));
+        self.weight() + self.mass.component_mul(&inertia) + self.damping * damping
+    }
+
     /// Natural frequencies with the wheels held (on a rigid rail), Hz, increasing.
     pub fn frequencies_on_rigid_rail(&self) -> [f64; FIRST_WHEEL] {
         // Kφ = ω²Mφ of the upper 6 × 6 block, made symmetric with M^{-1/2}.
@@ -87,6 +96,35 @@ impl Car {
         hertz.iter_mut().for_each(|x| *x = x.max(0.0).sqrt() / std::f64::consts::TAU);
         hertz.sort_by(f64::total_cmp);
         hertz
+    }
+}
+
+/// Degree of freedom of an axle among those of all cars.
+pub fn wheel(axle: usize) -> usize {
+    axle / AXLES * DOFS + FIRST_WHEEL + axle % AXLES
+}
+
+/// q = q_free − K̂⁻¹ Bᵀ F of all cars, from their K̂⁻¹; B picks the wheels.
+pub fn press(inverses: &[Matrix10], free: &[f64], forces: &[f64], q: &mut [f64]) {
+    for (c, inverse) in inverses.iter().enumerate() {
+        let mut pressed = Vector10::zeros();
+        pressed.as_mut_slice()[FIRST_WHEEL..].copy_from_slice(&forces[c * AXLES..(c + 1) * AXLES]);
+        let moved = inverse * pressed;
+        for i in 0..DOFS {
+            q[c * DOFS + i] = free[c * DOFS + i] - moved[i];
+        }
+    }
+}
+
+/// Y ← Y + B K̂⁻¹ Bᵀ of all cars, Y over all axles by rows.
+pub fn add_wheel_compliance(inverses: &[Matrix10], y: &mut [f64]) {
+    let n = inverses.len() * AXLES;
+    for (c, inverse) in inverses.iter().enumerate() {
+        for i in 0..AXLES {
+            for j in 0..AXLES {
+                y[(c * AXLES + i) * n + c * AXLES + j] += inverse[(FIRST_WHEEL + i, FIRST_WHEEL + j)];
+            }
+        }
     }
 }
 

@@ -21,7 +21,7 @@ use std::sync::Arc;
 use ttb_dynamics::newmark::{Motion, Newmark};
 use ttb_dynamics::twisted::TwistedFactor;
 
-use crate::car::{AXLES, Car, DOFS, FIRST_WHEEL, Matrix10, Vector10};
+use crate::car::{AXLES, Car, DOFS, Matrix10, add_wheel_compliance, press, wheel};
 use crate::compliance::RailCompliance;
 use crate::contact::Contacts;
 use crate::profile::Irregularity;
@@ -79,7 +79,7 @@ pub struct StepMatrices {
     pub newmark: Newmark,
     track: TwistedFactor,
     compliance: RailCompliance,
-    cars: Vec<Matrix10>,
+    pub(crate) cars: Vec<Matrix10>,
 }
 
 /// The subsystem: matrices, laws, profile, and the workspace of a step.
@@ -212,32 +212,15 @@ impl TrainTrackSystem {
             let row = &mut self.to_supports[i * supports..(i + 1) * supports];
             self.reached[i] = matrices.compliance.to_supports(&self.points[i], row);
         }
-        self.add_wheel_compliance(matrices);
+        add_wheel_compliance(&matrices.cars, &mut self.compliance);
         self.geometry_for = Some(key);
         Ok(())
     }
 
-    /// Y += B K̂_c⁻¹ Bᵀ of every car.
-    pub(crate) fn add_wheel_compliance(&mut self, matrices: &StepMatrices) {
-        let n = self.points.len();
-        for (c, inverse) in matrices.cars.iter().enumerate() {
-            for i in 0..AXLES {
-                for j in 0..AXLES {
-                    self.compliance[(c * AXLES + i) * n + c * AXLES + j] += inverse[(FIRST_WHEEL + i, FIRST_WHEEL + j)];
-                }
-            }
-        }
-    }
-
     /// q_free of all cars from their old motion.
     pub(crate) fn free_cars(&mut self, matrices: &StepMatrices, old: &Motion) {
-        let newmark = &matrices.newmark;
         for (c, (car, inverse)) in self.cars.iter().zip(&matrices.cars).enumerate() {
-            let of = |values: &[f64]| Vector10::from_column_slice(&values[c * DOFS..(c + 1) * DOFS]);
-            let (u, v, a) = (of(&old.u), of(&old.v), of(&old.a));
-            let inertia = u.zip_zip_map(&v, &a, |u, v, a| newmark.inertia(u, v, a));
-            let damping = u.zip_zip_map(&v, &a, |u, v, a| newmark.damping(u, v, a));
-            let p = car.weight() + car.mass.component_mul(&inertia) + car.damping * damping;
+            let p = car.history(&matrices.newmark, old, c);
             self.cars_free[c * DOFS..(c + 1) * DOFS].copy_from_slice((inverse * p).as_slice());
         }
     }
@@ -245,21 +228,13 @@ impl TrainTrackSystem {
     /// δ_free: wheel displacements of q_free, minus r, minus the rail's deflection under the wheels.
     pub(crate) fn free_approach(&mut self, under_wheels: &[f64]) {
         for (axle, (free, rail)) in self.delta_free.iter_mut().zip(under_wheels).enumerate() {
-            let wheel = self.cars_free[axle / AXLES * DOFS + FIRST_WHEEL + axle % AXLES];
-            *free = wheel - self.roughness[axle] - rail;
+            *free = self.cars_free[wheel(axle)] - self.roughness[axle] - rail;
         }
     }
 
     /// q₁ = q_free − K̂_c⁻¹ Bᵀ F with its velocities and accelerations.
     pub(crate) fn finish_cars(&self, matrices: &StepMatrices, old: &Motion, forces: &[f64], new: &mut Motion) {
-        for (c, inverse) in matrices.cars.iter().enumerate() {
-            let mut pressed = Vector10::zeros();
-            pressed.as_mut_slice()[FIRST_WHEEL..].copy_from_slice(&forces[c * AXLES..(c + 1) * AXLES]);
-            let moved = inverse * pressed;
-            for i in 0..DOFS {
-                new.u[c * DOFS + i] = self.cars_free[c * DOFS + i] - moved[i];
-            }
-        }
+        press(&matrices.cars, &self.cars_free, forces, &mut new.u);
         matrices.newmark.finish_all(old, new);
     }
 

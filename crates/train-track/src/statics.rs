@@ -14,7 +14,7 @@ use nalgebra::{DMatrix, DVector};
 use ttb_dynamics::band::BandFactor;
 use ttb_dynamics::newmark::Motion;
 
-use crate::car::{AXLES, DOFS, FIRST_WHEEL};
+use crate::car::{AXLES, DOFS, FIRST_WHEEL, add_wheel_compliance};
 use crate::coupled::{State, StepMatrices, TrainTrackSystem};
 
 /// Newton iterations at most.
@@ -113,7 +113,7 @@ pub fn pre_roll(
     system.locate(0.0)?;
     let rail = rail_without_wheels(system, factor, &state.deck);
     static_compliance(system, factor);
-    system.add_wheel_compliance(matrices);
+    add_wheel_compliance(&matrices.cars, &mut system.compliance);
     let under_wheels: Vec<f64> = system.points.iter().map(|point| system.track.deflection(point, &rail)).collect();
     let (mut old, mut new) = (state.cars.clone(), state.cars.clone());
     for step in (0..steps as u64).rev() {
