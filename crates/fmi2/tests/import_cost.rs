@@ -1,33 +1,15 @@
 //! What the import layer adds to an FMU's own time, at 1,000 couplings each way: no allocation, and microseconds.
 #![cfg(feature = "import")]
 
+mod counting;
 mod foreign;
 
+use counting::allocations;
 use foreign::*;
-use std::alloc::{GlobalAlloc, Layout, System};
-use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Instant;
 use ttb_coupling::Subsystem;
 use ttb_fmi2::import::{Fmu, FmuSubsystem};
 use ttb_model_description::package::{LIBRARY_EXTENSION, PLATFORM};
-
-struct Counting;
-static ALLOCATIONS: AtomicU64 = AtomicU64::new(0);
-
-// SAFETY: does what the system's allocator does, and counts.
-unsafe impl GlobalAlloc for Counting {
-    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
-        ALLOCATIONS.fetch_add(1, Ordering::Relaxed);
-        // SAFETY: passed on.
-        unsafe { System.alloc(layout) }
-    }
-    unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
-        // SAFETY: passed on.
-        unsafe { System.dealloc(pointer, layout) }
-    }
-}
-#[global_allocator]
-static GLOBAL: Counting = Counting;
 
 const N: usize = 1000;
 
@@ -52,7 +34,7 @@ fn a_sweep_over_1000_couplings_allocates_nothing_and_costs_microseconds() {
     // The best of ten batches: the machine may be busy with something else meanwhile.
     let sweeps = 1000;
     let (mut best_total, mut best_outside) = (f64::INFINITY, f64::INFINITY);
-    let before = ALLOCATIONS.load(Ordering::Relaxed);
+    let before = allocations();
     for _ in 0..10 {
         let (begin, inside) = (Instant::now(), s.instance().tally().time);
         for _ in 0..sweeps {
@@ -63,7 +45,7 @@ fn a_sweep_over_1000_couplings_allocates_nothing_and_costs_microseconds() {
         let micro = |time: std::time::Duration| 1e6 * time.as_secs_f64() / f64::from(sweeps);
         (best_total, best_outside) = (best_total.min(micro(total)), best_outside.min(micro(outside)));
     }
-    assert_eq!(ALLOCATIONS.load(Ordering::Relaxed) - before, 0);
+    assert_eq!(allocations() - before, 0);
     println!("{N} couplings each way: {best_total:.2} µs a sweep, {best_outside:.2} µs of it outside the FMU");
     assert!(best_outside < 5.0, "the import layer is too slow: {best_outside:.2} µs a sweep");
 }

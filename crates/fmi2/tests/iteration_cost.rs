@@ -1,29 +1,12 @@
 //! What the iteration costs beside its subsystems at 1,000 couplings each way: no allocation in a step, by any method.
 
-use std::alloc::{GlobalAlloc, Layout, System};
-use std::sync::atomic::{AtomicU64, Ordering};
+mod counting;
+
+use counting::allocations;
 use std::time::Instant;
 use ttb_coupling::iteration::{OnFailure, Settings};
 use ttb_coupling::predictor::Predictor;
 use ttb_coupling::{Adapted, Coupling, Failure, Joined, Method, Shape, Stations, Subsystem};
-
-struct Counting;
-static ALLOCATIONS: AtomicU64 = AtomicU64::new(0);
-
-// SAFETY: does what the system's allocator does, and counts.
-unsafe impl GlobalAlloc for Counting {
-    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
-        ALLOCATIONS.fetch_add(1, Ordering::Relaxed);
-        // SAFETY: passed on.
-        unsafe { System.alloc(layout) }
-    }
-    unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
-        // SAFETY: passed on.
-        unsafe { System.dealloc(pointer, layout) }
-    }
-}
-#[global_allocator]
-static GLOBAL: Counting = Counting;
 
 /// Answers `constant + gain · (input at the end of the step)`, each output to the input of its number.
 struct Line {
@@ -107,11 +90,11 @@ fn run(method: Method, n: usize, bridge: &mut dyn Subsystem, what: &str) {
         }
     };
     run(0, 10);
-    let before = ALLOCATIONS.load(Ordering::Relaxed);
+    let before = allocations();
     let begin = Instant::now();
     run(10, 200);
     let micro = 1e6 * begin.elapsed().as_secs_f64() / 200.0;
-    assert_eq!(ALLOCATIONS.load(Ordering::Relaxed) - before, 0, "{}, {what}", method.name());
+    assert_eq!(allocations() - before, 0, "{}, {what}", method.name());
     println!(
         "{}, {n} forces, {what}: {:.1} trials, {micro:.1} µs a step",
         method.name(),
