@@ -3,6 +3,7 @@
 use std::collections::HashMap;
 
 use serde::Serialize;
+use ttb_coupling::work::WORK;
 
 use crate::auto::Choice;
 use crate::record::{Column, Recorder};
@@ -41,6 +42,12 @@ pub fn kind(name: &str) -> String {
         (Some(open), Some(close)) if open < close => format!("{}{}", &name[..=open], &name[close..]),
         _ => name.to_string(),
     }
+}
+
+/// Whether an output has extremes of interest: not what is a place, belongs to a support, or is the work of a step, which is
+/// the less the shorter the step.
+pub fn is_quantity(name: &str) -> bool {
+    !name.starts_with("support[") && !name.ends_with(".position") && name != WORK
 }
 
 /// Contact of one wheelset.

@@ -63,3 +63,8 @@ pub fn save(drawing: &impl Drawing, stem: &Path) -> Result<(), Error> {
     let written = encoder.write_header().and_then(|mut writer| writer.write_image_data(&pixels));
     written.map_err(|e| failed(&png, e.to_string()))
 }
+
+/// Without rounding noise, nor a minus before zero.
+pub fn rounded(x: f64) -> f64 {
+    (1e6 * x).round() / 1e6 + 0.0
+}

@@ -5,7 +5,6 @@ use std::path::Path;
 
 use ttb_coupling::IterationError;
 use ttb_coupling::run::{TimeAxis, run as run_steps};
-use ttb_coupling::work::WORK;
 use ttb_fmi2::import::{FmuSubsystem, VariableType};
 use ttb_scenario::Checked;
 use ttb_scenario::step::Steps;
@@ -15,6 +14,7 @@ use crate::build;
 use crate::connect::{BridgeSide, Given, connect};
 use crate::error::Error;
 use crate::isolate::Isolated;
+use crate::peaks::is_quantity;
 
 /// The way, m: bridge and fading in of the irregularity, but no more and no less than this.
 const WAY: [f64; 2] = [40.0, 60.0];
@@ -110,9 +110,7 @@ struct Side {
 impl Side {
     fn new(fmu: &mut FmuSubsystem, at_times: bool) -> Self {
         let outputs = fmu.instance().description().with_causality("output");
-        // Not what is no peak: places, and the work of a step, which is the less the shorter the step.
-        let reported = |name: &str| !name.starts_with("support[") && !name.ends_with(".position") && name != WORK;
-        let reported = outputs.filter(|v| v.kind == VariableType::Real && reported(&v.name));
+        let reported = outputs.filter(|v| v.kind == VariableType::Real && is_quantity(&v.name));
         let none = [f64::INFINITY, f64::NEG_INFINITY];
         let (references, seen): (Vec<u32>, Vec<Seen>) = reported
             .map(|v| {

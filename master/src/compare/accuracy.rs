@@ -7,7 +7,6 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use ttb_bridge::Bridge;
 use ttb_coupling::run::{TimeAxis, run as run_steps};
-use ttb_coupling::work::WORK;
 use ttb_coupling::{Coupling, InProcess, Interface, Model, ModelError, Pair};
 use ttb_scenario::Checked;
 use ttb_scenario::step::Steps;
@@ -17,7 +16,8 @@ use crate::build;
 use crate::cli::Accuracy;
 use crate::compare::slopes::Slopes;
 use crate::error::Error;
-use crate::picture::save;
+use crate::peaks::{is_quantity, kind};
+use crate::picture::{rounded, save};
 use crate::run::{progress_bar, stop_on_interrupt};
 
 /// A quantity: all outputs of equal name but for number or name in brackets.
@@ -81,7 +81,7 @@ fn histories(checked: &Checked, h: f64, quiet: bool, stop: &AtomicBool) -> Resul
     let bridge = Bridge::new(checked.bridge.clone()).map_err(refused)?;
     let wanted = |interface: &Interface| -> Vec<(String, u32)> {
         let names = interface.outputs().map(|r| (interface.variables()[r].name.clone(), r as u32));
-        names.filter(|(name, _)| reported(name)).collect()
+        names.filter(|(name, _)| is_quantity(name)).collect()
     };
     let (of_train, of_bridge) = (wanted(train_track.interface()), wanted(bridge.interface()));
     let references = [&of_train, &of_bridge].map(|list| list.iter().map(|(_, r)| *r).collect::<Vec<u32>>());
@@ -112,17 +112,12 @@ fn histories(checked: &Checked, h: f64, quiet: bool, stop: &AtomicBool) -> Resul
     if ended.is_break() { Err(Error::Interrupted) } else { Ok(table) }
 }
 
-/// Not what is no result (places) or depends on the step by itself (its work).
-fn reported(name: &str) -> bool {
-    !name.starts_with("support[") && !name.ends_with("].position") && name != WORK
-}
-
 /// Errors of every kind; the fine run has `parts` steps in one of the coarse run.
 fn compare(truth: &Histories, coarse: &Histories, parts: usize) -> Vec<(String, [f64; 2])> {
     // Per kind: greatest value, greatest difference, greatest difference of peaks.
     let mut kinds: BTreeMap<String, [f64; 3]> = BTreeMap::new();
     for ((name, fine), (_, coarse)) in truth.iter().zip(coarse) {
-        let kind = kinds.entry(pattern(name)).or_default();
+        let kind = kinds.entry(kind(name).replace("[]", "[·]")).or_default();
         let peak = |values: &[f64]| values.iter().fold(0.0_f64, |peak, x| peak.max(x.abs()));
         kind[0] = kind[0].max(peak(fine));
         // A last step that was shortened is no multiple of the fine ones.
@@ -132,14 +127,6 @@ fn compare(truth: &Histories, coarse: &Histories, parts: usize) -> Vec<(String, 
     }
     let relative = |[scale, history, peak]: [f64; 3]| [history / scale, peak / scale];
     kinds.into_iter().filter(|(_, k)| k[0] > 0.0).map(|(name, k)| (name, relative(k))).collect()
-}
-
-/// A name with what stands in brackets left out.
-fn pattern(name: &str) -> String {
-    match (name.find('['), name.find(']')) {
-        (Some(a), Some(b)) => format!("{}[·]{}", &name[..a], &name[b + 1..]),
-        _ => name.to_string(),
-    }
 }
 
 /// History and peak error in percent, a column a step.
@@ -173,10 +160,6 @@ fn csv(steps: &[f64], kinds: &[Kind]) -> String {
         }
     }
     text
-}
-
-fn rounded(x: f64) -> f64 {
-    (1e6 * x).round() / 1e6
 }
 
 /// Two significant digits of a percentage.

@@ -8,7 +8,7 @@ use plotters::prelude::*;
 
 use crate::compare::ran::{QUANTITIES, Ran, Watched};
 use crate::error::Error;
-use crate::picture::{Drawing, Failed, SANS, save};
+use crate::picture::{Drawing, Failed, SANS, rounded, save};
 
 /// Points of a curve at most: each column of pixels keeps its extremes.
 const POINTS: usize = 2400;
@@ -134,11 +134,6 @@ impl Figure<'_> {
 fn stroke(at: usize, color: RGBColor, scale: f64) -> ShapeStyle {
     let (width, share) = if at == 0 { (3.0, 0.35) } else { (1.0, 1.0) };
     color.mix(share).stroke_width((width * scale).round() as u32)
-}
-
-/// Without rounding noise, nor a minus before zero.
-fn rounded(x: f64) -> f64 {
-    (1e6 * x).round() / 1e6 + 0.0
 }
 
 /// The points of a curve in a stretch of time, one more on either side.
