@@ -1,16 +1,16 @@
 //! What engineers check first of a bridge: size, mass, equilibrium, what is loose, lowest natural frequencies.
 
 use std::fmt;
-use std::path::Path;
 
 use ttb_coupling::ModelError;
 use ttb_dynamics::factor::{Factor, FactorError, Layout};
 use ttb_dynamics::modes::lowest;
-use ttb_dynamics::sparse::{Assembly, Pencil};
-use ttb_import::{Files, Inspection};
+use ttb_dynamics::sparse::Pencil;
+use ttb_import::Inspection;
 use ttb_scenario::spec::{BridgeSpec, StructureSpec};
 use ttb_scenario::types::Model;
 
+use crate::assembled::{Assembled, Names};
 use crate::space::{self, SelfCheck, Statics};
 use crate::{imported, plane};
 
@@ -48,13 +48,13 @@ impl Report {
 pub fn inspect(spec: &BridgeSpec) -> Result<Report, ModelError> {
     match &spec.structure {
         StructureSpec::FiniteElements(model) => of_model(model, &spec.supports),
-        StructureSpec::Matrices { files, folder, .. } => of_files(files, folder, &spec.supports),
+        StructureSpec::Matrices { files, folder, .. } => {
+            let imported = files.read(folder).map_err(|problems| ModelError(problems.to_string()))?;
+            let inspection = imported.inspect();
+            Ok(Equations::new(imported::from(imported, &spec.supports)?)?.report(None, Some(inspection)))
+        }
         StructureSpec::Beams { .. } | StructureSpec::Frame(_) => {
-            let assembled = plane::assemble(spec)?;
-            let (pencil, factor) = factorised(assembled.equations, Layout::default())?;
-            let frequencies = frequencies(&pencil, factor, &assembled.names);
-            let mass = assembled.mass;
-            Ok(Report { ndof: pencil.ndof(), entries: pencil.entries(), model: None, files: None, mass, frequencies })
+            Ok(Equations::new(plane::assemble(spec)?)?.report(None, None))
         }
         StructureSpec::Stored => Err(ModelError("bridge: a stored bridge was looked at when it was made".into())),
     }
@@ -74,43 +74,43 @@ pub fn of_model(model: &Model, supports: &[f64]) -> Result<Report, ModelError> {
             return Ok(Report { ndof, entries: 0, model: Some(check), files: None, mass, frequencies: Err(error.0) });
         }
     };
-    let layout = Layout { node_of: assembled.node_of, place: assembled.nodes, ..Layout::default() };
-    let (pencil, factor) = factorised(assembled.equations, layout)?;
-    let check = match &factor {
+    let equations = Equations::new(assembled)?;
+    let check = match &equations.factor {
         Ok(factor) => {
-            let mut scratch = vec![0.0; pencil.ndof()];
+            let mut scratch = vec![0.0; equations.pencil.ndof()];
             space::self_check(model, Statics::Solved(&mut |x| factor.solve_in_place(x, &mut scratch)))?
         }
         Err(FactorError::NotPositive { dof }) => space::self_check(model, Statics::Mechanism(*dof))?,
         Err(_) => space::self_check(model, Statics::Unknown)?,
     };
-    let frequencies = frequencies(&pencil, factor, &assembled.names);
-    let (ndof, entries, mass) = (pencil.ndof(), pencil.entries(), assembled.mass);
-    Ok(Report { ndof, entries, model: Some(check), files: None, mass, frequencies })
+    Ok(equations.report(Some(check), None))
 }
 
-fn of_files(files: &Files, folder: &Path, stations: &[f64]) -> Result<Report, ModelError> {
-    let imported = files.read(folder).map_err(|problems| ModelError(problems.to_string()))?;
-    let inspection = imported.inspect();
-    let assembled = imported::from(imported, stations)?;
-    let layout = Layout { node_of: assembled.node_of, place: assembled.nodes, ..Layout::default() };
-    let (pencil, factor) = factorised(assembled.equations, layout)?;
-    let frequencies = frequencies(&pencil, factor, &assembled.names);
-    let (ndof, entries, mass) = (pencil.ndof(), pencil.entries(), assembled.mass);
-    Ok(Report { ndof, entries, model: None, files: Some(inspection), mass, frequencies })
-}
-
-fn factorised(equations: Assembly, layout: Layout) -> Result<(Pencil, Result<Factor, FactorError>), ModelError> {
-    let pencil = equations.finish_with(&layout).map_err(|e| ModelError(format!("bridge: {e}")))?;
-    let factor = pencil.factor(1.0, 0.0, 0.0);
-    Ok((pencil, factor))
-}
-
-fn frequencies(
-    pencil: &Pencil,
+/// An assembled bridge and the factor of its K, if there is one.
+struct Equations {
+    pencil: Pencil,
     factor: Result<Factor, FactorError>,
-    names: &dyn Fn(usize) -> String,
-) -> Result<Vec<f64>, String> {
+    names: Names,
+    mass: f64,
+}
+
+impl Equations {
+    fn new(assembled: Assembled) -> Result<Self, ModelError> {
+        let Assembled { equations, nodes, node_of, names, mass, .. } = assembled;
+        let layout = Layout { node_of, place: nodes, ..Layout::default() };
+        let pencil = equations.finish_with(&layout).map_err(|e| ModelError(format!("bridge: {e}")))?;
+        let factor = pencil.factor(1.0, 0.0, 0.0);
+        Ok(Self { pencil, factor, names, mass })
+    }
+
+    fn report(self, model: Option<SelfCheck>, files: Option<Inspection>) -> Report {
+        let Self { pencil, factor, names, mass } = self;
+        let (ndof, entries) = (pencil.ndof(), pencil.entries());
+        Report { ndof, entries, model, files, mass, frequencies: frequencies(&pencil, factor, &names) }
+    }
+}
+
+fn frequencies(pencil: &Pencil, factor: Result<Factor, FactorError>, names: &Names) -> Result<Vec<f64>, String> {
     let factor = factor.map_err(|error| match error {
         FactorError::NotPositive { dof } => format!("K is not positive definite: nothing holds the {}", names(dof)),
         other => other.to_string(),
