@@ -59,6 +59,14 @@ impl Ends {
     }
 }
 
+impl Assigned {
+    /// Every variable to one of the other side: the train–track side's forces, out of it and into the bridge, and the
+    /// bridge's motions, out of it and into the train–track side.
+    pub fn one_to_one([forces_out, forces_in]: [Ends; 2], [motions_out, motions_in]: [Ends; 2]) -> Self {
+        Self { forces_in, motions_out, forces_out, motions_in, stations: None, velocities: true }
+    }
+}
+
 /// The line from a variable to SI by the unit it declares; none if it declares none.
 ///
 /// # Errors

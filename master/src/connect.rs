@@ -1,16 +1,17 @@
 //! From FMU files to two coupled subsystems: variables of equal name are connected, or those that maps name.
 
-use std::collections::{BTreeMap, HashMap, HashSet};
+use std::collections::{BTreeMap, HashMap};
 use std::path::Path;
 
 use ttb_coupling::probe::Probe;
 use ttb_coupling::{Adapted, Coupling, Joined, Settings, Subsystem};
-use ttb_fmi2::import::{Another, Fmu, FmuError, FmuInstance, FmuSubsystem, Linear, ModelDescription, VariableType};
+use ttb_fmi2::import::{Another, Fmu, FmuError, FmuInstance, FmuSubsystem};
 use ttb_fmi2::isolate::Isolation;
 use ttb_scenario::Checked;
 use ttb_scenario::types::Send;
 
-use crate::assign::{Assigned, Ends, assign, declared, places, ranges};
+use crate::assign::{Assigned, Ends, assign, places, ranges};
+use crate::equal::equal_names;
 use crate::error::Error;
 use crate::isolate::{self, Isolated};
 use crate::map::{Map, Value};
@@ -75,27 +76,6 @@ impl Bridge {
     }
 }
 
-/// A connected pair of variables, and the lines between each of them and the iteration.
-#[derive(Clone)]
-pub struct Wire {
-    /// An output of one FMU.
-    pub output: String,
-    /// An input of the other.
-    pub input: String,
-    /// From the output to the iteration.
-    pub from_output: Linear,
-    /// From the iteration to the input.
-    pub to_input: Linear,
-}
-
-/// All connections.
-pub struct Wiring {
-    /// From the train–track side to the bridge.
-    pub forces: Vec<Wire>,
-    /// From the bridge to the train–track side.
-    pub motions: Vec<Wire>,
-}
-
 /// Loads the FMUs, enters initialization mode, connects.
 ///
 /// Variables of equal name belong together, or those that maps name. Bridges that are not `trusted` are taken for such that
@@ -138,65 +118,6 @@ pub fn connect(
     };
     let parts = offered.into_iter().zip(assigned).collect();
     couple(train_track, parts, checked.settings(), checked.scenario.coupling.send, checked.steps().step, warnings)
-}
-
-/// Everything that has the same name on both sides, in its declared units.
-fn equal_names(train_track: &FmuInstance, bridge: &FmuInstance, warnings: &mut Vec<String>) -> Result<Assigned, Error> {
-    let forces = shared(train_track.description(), bridge.description());
-    let motions = shared(bridge.description(), train_track.description());
-    if let Some(open) = unconnected(train_track.description(), &motions) {
-        return Err(Error::Input(format!(
-            "{}: no output of {} has the name of its input {open}",
-            train_track.name(),
-            bridge.name()
-        )));
-    }
-    if forces.is_empty() || motions.is_empty() {
-        let (a, b) = (bridge.name(), train_track.name());
-        return Err(Error::Input(format!(
-            "{a} and {b} share no variable of equal name that is an input of one and an output of the other"
-        )));
-    }
-    refuse_strangers(bridge, train_track, &forces)?;
-    if let Some(open) = unconnected(bridge.description(), &forces) {
-        warnings.push(format!("{}: input {open} is connected to nothing and keeps its start value", bridge.name()));
-    }
-    let mut problems = Vec::new();
-    let mut wires = |names: Vec<String>, from: &FmuInstance, to: &FmuInstance| -> Vec<Wire> {
-        let mut line = |side: &FmuInstance, name: &str| {
-            let line = declared(side.description(), name).map_err(|e| problems.push(format!("{}: {e}", side.name())));
-            line.ok().flatten().unwrap_or(Linear::IDENTITY)
-        };
-        let wire = |name: String| {
-            let (from_output, to_input) = (line(from, &name), line(to, &name).inverse());
-            Wire { input: name.clone(), output: name, from_output, to_input }
-        };
-        names.into_iter().map(wire).collect()
-    };
-    let wiring = Wiring { forces: wires(forces, train_track, bridge), motions: wires(motions, bridge, train_track) };
-    if problems.is_empty() { Ok(wiring.into()) } else { Err(Error::Input(problems.join("\n  "))) }
-}
-
-impl From<Wiring> for Assigned {
-    fn from(wiring: Wiring) -> Self {
-        let mut assigned = Self {
-            forces_in: Ends::default(),
-            motions_out: Ends::default(),
-            forces_out: Ends::default(),
-            motions_in: Ends::default(),
-            stations: None,
-            velocities: true,
-        };
-        for wire in wiring.forces {
-            assigned.forces_out.push(wire.output, wire.from_output);
-            assigned.forces_in.push(wire.input, wire.to_input);
-        }
-        for wire in wiring.motions {
-            assigned.motions_out.push(wire.output, wire.from_output);
-            assigned.motions_in.push(wire.input, wire.to_input);
-        }
-        assigned
-    }
 }
 
 /// Couples FMUs in initialization mode; `h` is the step to come, s.
@@ -328,43 +249,4 @@ pub fn instantiate(
     instance.setup_experiment(0.0, Some(end))?;
     instance.enter_initialization()?;
     Ok(instance)
-}
-
-/// Real outputs of `from` that are Real inputs of `to`, in the order of the inputs.
-fn shared(from: &ModelDescription, to: &ModelDescription) -> Vec<String> {
-    let outputs: HashSet<&str> =
-        from.with_causality("output").filter(|v| v.kind == VariableType::Real).map(|v| v.name.as_str()).collect();
-    let inputs = to.with_causality("input").filter(|v| v.kind == VariableType::Real);
-    inputs.filter(|v| outputs.contains(v.name.as_str())).map(|v| v.name.clone()).collect()
-}
-
-/// The first input that is not among `connected`, and how many more there are.
-fn unconnected(description: &ModelDescription, connected: &[String]) -> Option<String> {
-    let connected: HashSet<&str> = connected.iter().map(String::as_str).collect();
-    let mut open = description.with_causality("input").filter(|v| !connected.contains(v.name.as_str()));
-    let first = open.next()?.name.clone();
-    let more = open.count();
-    Some(if more == 0 { first } else { format!("{first} (and {more} more)") })
-}
-
-/// Two FMUs of different scenarios share some names of a series, `support[1].force` and so on, and lack others: coupled all
-/// the same they would lose forces.
-fn refuse_strangers(bridge: &FmuInstance, train_track: &FmuInstance, forces: &[String]) -> Result<(), Error> {
-    let series = |name: &str| name.split(|c: char| c.is_ascii_digit()).collect::<Vec<_>>().join("#");
-    let coupled: HashSet<String> = forces.iter().map(|name| series(name)).collect();
-    let known: HashSet<&str> = forces.iter().map(String::as_str).collect();
-    for (fmu, causality) in [(bridge, "input"), (train_track, "output")] {
-        let alone = |name: &str| coupled.contains(&series(name)) && !known.contains(name);
-        let mut lonely = fmu.description().with_causality(causality).filter(|v| alone(&v.name));
-        if let Some(first) = lonely.next() {
-            let (name, more) = (&first.name, lonely.count());
-            return Err(Error::Input(format!(
-                "{}: {causality} {name} (and {more} more) has no partner, though {} others of its series have: the two FMUs \
-                 belong to different scenarios",
-                fmu.name(),
-                forces.len()
-            )));
-        }
-    }
-    Ok(())
 }

@@ -17,6 +17,7 @@ mod clock;
 mod compare;
 mod connect;
 mod coupled;
+mod equal;
 mod error;
 mod generate;
 mod inspect;

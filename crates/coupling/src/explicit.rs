@@ -9,9 +9,8 @@
 //! ```
 //!
 //! Deck and track never part; G − λ, the force that is missing, is the error estimate. The scheme is stable as long as ρ,
-//! the contraction of the iteration it stands for, is small. ρ is measured
-//! before the first step: by the bridge's directional derivatives, or by other instances of it that are thrown away. A
-//! residual that grows tells in any case.
+//! the contraction of the iteration it stands for, is small. ρ is measured before the first step: by the bridge's
+//! directional derivatives, or by other instances of it that are thrown away. A residual that grows tells in any case.
 
 use crate::dense::{dot, norm};
 use crate::exchange::Sides;

@@ -1,8 +1,8 @@
 //! Trial steps before the first one: does a subsystem come back to a saved state, and does the deck answer forces as a
 //! deck does?
 //!
-//! A few runs of some steps ([`STEPS`], if there are as many) start from the same state: under the forces at hand, and under others that grow by v
-//! within the first step and then stay. The differences of the motion are what v does:
+//! A few runs of some steps ([`STEPS`], if there are as many) start from the same state: under the forces at hand, and
+//! under others that grow by v within the first step and then stay. The differences of the motion are what v does:
 //!
 //! ```text
 //! Δd_k = Δd(t + k h),  Δḋ_k        after k steps
@@ -66,7 +66,8 @@ pub(crate) fn difference(first: &[f64], repeated: &[f64], other: &[f64], halves:
 }
 
 impl Coupling {
-    /// Probes both sides between initialization and the first of `axis`; afterwards they are where they were. `groups` are the forces, by position, that act on a deck of their own each.
+    /// Probes both sides between initialization and the first step of `axis`; afterwards they are where they were.
+    /// `groups` are the forces, by position, that act on a deck of their own each.
     ///
     /// # Errors
     /// A subsystem fails or answers NaN.

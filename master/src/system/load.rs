@@ -13,8 +13,8 @@ use ttb_ssp::{Report, STRUCTURE, Structure};
 use super::annotation::{self, Settings};
 use super::roles;
 use super::wiring::{Link, links};
-use crate::assign::Assigned;
-use crate::connect::{Bridge, Connected, Wire, Wiring, couple, instantiate};
+use crate::assign::{Assigned, Ends};
+use crate::connect::{Bridge, Connected, couple, instantiate};
 use crate::error::Error;
 use crate::isolate::{self, Isolated};
 use crate::job::{Job, Origin};
@@ -72,10 +72,8 @@ impl Opened {
         if !report.is_empty() {
             return Err(Error::Input(report.to_string()));
         }
-        let wiring = Wiring {
-            forces: wires(&links, train_track, &fmus, false),
-            motions: wires(&links, 1 - train_track, &fmus, true),
-        };
+        let forces = ends(&links, train_track, &fmus, false);
+        let assigned = Assigned::one_to_one(forces, ends(&links, 1 - train_track, &fmus, true));
         let title = structure.system.description.or(structure.description).unwrap_or(structure.name);
         let job = Job {
             title,
@@ -94,7 +92,7 @@ impl Opened {
         let bridge = &components[1 - train_track];
         let train_track = (components[train_track].name.clone(), if train_track == 0 { first } else { second });
         let bridge = (bridge.name.clone(), folder.path().join(&bridge.source));
-        Ok(Self { job, warnings, settings, train_track, bridge, assigned: wiring.into(), _folder: folder })
+        Ok(Self { job, warnings, settings, train_track, bridge, assigned, _folder: folder })
     }
 
     /// Both FMUs in initialization mode, connected; see [`crate::connect::connect`].
@@ -165,20 +163,22 @@ fn times(structure: &Structure, settings: &Settings, fmus: &[&Fmu; 2], report: &
 
 /// The links from a component, in the order of the inputs they lead to, as where equal names are connected. The iteration
 /// sees what the train–track side sees, in SI: a transformation is the bridge's, whichever way it leads.
-fn wires(links: &[Link], from: usize, fmus: &[Fmu; 2], from_bridge: bool) -> Vec<Wire> {
+fn ends(links: &[Link], from: usize, fmus: &[Fmu; 2], from_bridge: bool) -> [Ends; 2] {
     let inputs = fmus[1 - from].description().with_causality("input");
     let order: std::collections::HashMap<&str, usize> = inputs.enumerate().map(|(i, v)| (v.name.as_str(), i)).collect();
     let mut links: Vec<&Link> = links.iter().filter(|link| link.from == from).collect();
     links.sort_by_key(|link| order.get(link.input.as_str()));
-    let wire = |link: &Link| {
+    let [mut out, mut into] = [Ends::default(), Ends::default()];
+    for link in links {
         let (from_output, to_input) = if from_bridge {
             (link.to_si.then(link.from_si).then(link.input_to_si), link.input_to_si.inverse())
         } else {
             (link.to_si, link.from_si)
         };
-        Wire { output: link.output.clone(), input: link.input.clone(), from_output, to_input }
-    };
-    links.into_iter().map(wire).collect()
+        out.push(link.output.clone(), from_output);
+        into.push(link.input.clone(), to_input);
+    }
+    [out, into]
 }
 
 /// SHA-256 of a file.
