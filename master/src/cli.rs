@@ -202,7 +202,8 @@ that is well below its limit of convergence; HSA at that step too. The output fo
 figure-7 to figure-10 as SVG and PNG.
 
   ttb compare examples/r1.json
-  ttb compare examples/cable-stayed-120k/scenario.json --budget 600 --reference none";
+  ttb compare examples/cable-stayed-120k/scenario.json --budget scm=300
+Ctrl-C ends the row at hand; the table then has the rows so far.";
 
 /// Arguments of `ttb compare`.
 #[derive(Debug, Args)]
@@ -221,9 +222,9 @@ pub struct Compare {
     /// Step of the run that peaks are compared with; none: no such run [default: a tenth of the scenario's]
     #[arg(long, value_name = "SECONDS", default_value = "auto", hide_default_value = true)]
     pub reference: Fine,
-    /// CPU time that the steps of a row may take; the total is then extrapolated
-    #[arg(long, value_name = "SECONDS", value_parser = positive)]
-    pub budget: Option<f64>,
+    /// CPU time that the steps of a row may take; the total is then extrapolated. With a method: its rows alone
+    #[arg(long, value_name = "[METHOD=]SECONDS", value_delimiter = ',')]
+    pub budget: Vec<Budget>,
     /// Monitored point [default: the first]
     #[arg(long, value_name = "NAME")]
     pub point: Option<String>,
@@ -277,6 +278,26 @@ pub enum Compared {
 
 impl Compared {
     const ALL: [Self; 6] = [Self::Scm, Self::Schur, Self::Lcm, Self::LcmRelaxed, Self::Hsa, Self::Multi];
+}
+
+/// How long rows may take.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Budget {
+    /// Whose rows; none: all.
+    pub method: Option<Compared>,
+    /// CPU time, s.
+    pub seconds: f64,
+}
+
+impl std::str::FromStr for Budget {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let Some((method, seconds)) = text.split_once('=') else {
+            return Ok(Self { method: None, seconds: positive(text)? });
+        };
+        Ok(Self { method: Some(Compared::from_str(method, false)?), seconds: positive(seconds)? })
+    }
 }
 
 /// The step of the fine run.

@@ -32,7 +32,7 @@ fn main() {
     ] {
         let mut train_track = make("Front", &motions, &forces, "0.03");
         let mut bridge = make("Back", &forces, &motions, "1.0");
-        let mut coupling = Coupling::new(N, N, settings(limit, method));
+        let mut coupling = Coupling::new(N, N, settings(limit, method)).with_displacements((0..N).collect());
         coupling.initialise(&mut train_track, &mut bridge, 0.0).expect("equilibrium");
         let (mut best, mut best_inside, mut sweeps) = (f64::INFINITY, 0.0, 0);
         let mut n = 0;

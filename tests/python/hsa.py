@@ -76,11 +76,11 @@ class Coupling:
             for instance, state in zip(both, states):
                 instance.setFMUstate(state)
             self.force_in.set(self.force)
-            self.force_in.set_rates((force - self.force) / h)
+            self.force_in.set_rates((force - self.force) * (1 / h))
             self.bridge.doStep(t, h, False)
             motion = self.motion_out.get()
             self.motion_in.set(self.motion)
-            self.motion_in.set_rates((motion - self.motion) / h)
+            self.motion_in.set_rates((motion - self.motion) * (1 / h))
             self.train_track.doStep(t, h, False)
             return self.force_out.get()
 

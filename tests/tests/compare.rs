@@ -67,7 +67,7 @@ fn every_method_at_its_own_step_agrees_within_two_percent_and_at_equal_step_to_t
 #[test]
 fn a_row_that_costs_too_much_is_extrapolated_and_one_that_diverges_says_so() {
     let out = tempfile::tempdir().expect("temporary folder");
-    let asked = ["--methods", "schur,lcm", "--steps", "1e-3", "--reference", "none", "--budget", "0.01"];
+    let asked = ["--methods", "schur,lcm", "--steps", "1e-3", "--reference", "none", "--budget", "schur=0.01,5"];
     let done = compare(out.path(), &asked);
     assert!(done.status.success(), "{}", String::from_utf8_lossy(&done.stderr));
     let text = String::from_utf8_lossy(&done.stdout).into_owned();
@@ -94,6 +94,7 @@ fn bad_questions_are_answered_with_exit_code_2() {
         (["--wheel", "0"], "--wheel is 0; the train has 1 to 4"),
         (["--steps", "0"], "a positive number of seconds is wanted"),
         (["--budget", "0"], "a positive number of seconds is wanted"),
+        (["--budget", "magic=1"], "invalid variant: magic"),
         (["--methods", "magic"], "possible values: scm, schur, lcm, lcm-relaxed, hsa"),
     ] {
         let done = compare(out.path(), &arguments);

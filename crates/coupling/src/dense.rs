@@ -1,5 +1,7 @@
 //! A dense matrix and its factors: all the linear algebra an interface Jacobian needs.
 
+use pulp::{Arch, Simd, WithSimd};
+
 /// P A = L U of a square matrix, rows contiguous.
 #[derive(Debug)]
 pub struct Lu {
@@ -53,17 +55,71 @@ impl Lu {
     }
 }
 
-/// a · b, in four sums that a processor adds side by side.
-pub fn dot(a: &[f64], b: &[f64]) -> f64 {
-    let mut sums = [0.0; 4];
-    let (a4, b4) = (a.chunks_exact(4), b.chunks_exact(4));
-    let rest: f64 = a4.remainder().iter().zip(b4.remainder()).map(|(x, y)| x * y).sum();
-    for (x, y) in a4.zip(b4) {
-        for i in 0..4 {
-            sums[i] += x[i] * y[i];
+/// Numbers added side by side: a sum alone waits for itself. As many whatever the CPU, so that results do not depend on it.
+const LANES: usize = 16;
+
+/// Σ term(a_i, b_i, …) over the length of the shortest, in the instructions of the CPU at hand.
+pub fn sum<const K: usize>(of: [&[f64]; K], term: impl Fn([f64; K]) -> f64) -> f64 {
+    Arch::new().dispatch(Sum { of, term })
+}
+
+struct Sum<'a, F, const K: usize> {
+    of: [&'a [f64]; K],
+    term: F,
+}
+
+impl<F: Fn([f64; K]) -> f64, const K: usize> WithSimd for Sum<'_, F, K> {
+    type Output = f64;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) -> f64 {
+        let n = self.of.iter().map(|a| a.len()).min().unwrap_or(0);
+        let of = self.of.map(|a| a[..n].as_chunks::<LANES>());
+        let mut sums = [0.0; LANES];
+        for i in 0..n / LANES {
+            let of = of.map(|(chunks, _)| &chunks[i]);
+            for (lane, sum) in sums.iter_mut().enumerate() {
+                *sum += (self.term)(of.map(|a| a[lane]));
+            }
+        }
+        let rest = (0..n % LANES).map(|i| (self.term)(of.map(|(_, rest)| rest[i])));
+        sums.iter().sum::<f64>() + rest.sum::<f64>()
+    }
+}
+
+/// out_i = term(a_i, b_i, …) over the length of the shortest, in the instructions of the CPU at hand.
+pub fn each<const K: usize>(out: &mut [f64], of: [&[f64]; K], term: impl Fn([f64; K]) -> f64) {
+    Arch::new().dispatch(Each { out, of, term });
+}
+
+struct Each<'a, F, const K: usize> {
+    out: &'a mut [f64],
+    of: [&'a [f64]; K],
+    term: F,
+}
+
+impl<F: Fn([f64; K]) -> f64, const K: usize> WithSimd for Each<'_, F, K> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        let n = self.of.iter().map(|a| a.len()).fold(self.out.len(), usize::min);
+        let (out, of) = (&mut self.out[..n], self.of.map(|a| &a[..n]));
+        for (i, out) in out.iter_mut().enumerate() {
+            *out = (self.term)(of.map(|a| a[i]));
         }
     }
-    sums.iter().sum::<f64>() + rest
+}
+
+/// a · b.
+pub fn dot(a: &[f64], b: &[f64]) -> f64 {
+    sum([a, b], |[x, y]| x * y)
+}
+
+/// The first number that is NaN or infinite.
+pub fn not_finite(a: &[f64]) -> Option<usize> {
+    // 0 · x is zero for all others.
+    if sum([a], |[x]| 0.0 * x) == 0.0 { None } else { a.iter().position(|x| !x.is_finite()) }
 }
 
 /// |a|₂.
@@ -82,6 +138,18 @@ mod tests {
         let mut b: Vec<f64> = a.chunks_exact(3).map(|row| dot(row, &x)).collect();
         Lu::new(3, a).expect("regular").solve(&mut b);
         assert!(b.iter().zip(x).all(|(b, x)| (b - x).abs() < 1e-14), "{b:?}");
+    }
+
+    #[test]
+    fn the_one_number_that_is_not_finite_is_found() {
+        for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+            for at in 0..21 {
+                let mut a = vec![f64::MAX; 21];
+                assert_eq!(not_finite(&a), None);
+                a[at] = bad;
+                assert_eq!(not_finite(&a), Some(at));
+            }
+        }
     }
 
     #[test]

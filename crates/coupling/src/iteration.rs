@@ -26,7 +26,7 @@ pub use crate::settings::{OnFailure, Settings};
 use crate::strategy::Strategy;
 use crate::subsystem::Subsystem;
 use crate::trials::Mode;
-use crate::work::{self, Work};
+use crate::work::{self, Displacements, Work};
 
 /// Halvings of a step at most, under [`OnFailure::Halve`].
 const HALVINGS: usize = 4;
@@ -46,7 +46,9 @@ pub struct Coupling {
     /// G_n, what it answered at last in the step before.
     answer_before: Vec<f64>,
     /// Where in the motion each force finds its displacement.
-    displacements: Vec<usize>,
+    displacements: Displacements,
+    /// Its change over a step; empty: no work is counted.
+    moved: Vec<f64>,
     pub(crate) residual: Vec<f64>,
     /// Trials begun in the iteration at hand.
     pub(crate) made: usize,
@@ -70,7 +72,8 @@ impl Coupling {
             lambda: zero(),
             answer: zero(),
             answer_before: zero(),
-            displacements: if motions == 2 * forces { (0..forces).collect() } else { Vec::new() },
+            displacements: Displacements::First,
+            moved: if motions == 2 * forces { zero() } else { Vec::new() },
             residual: zero(),
             made: 0,
             strategy: Strategy::new(forces, &settings),
@@ -84,7 +87,7 @@ impl Coupling {
     /// Where in the motion each force finds its displacement; none: no work is counted.
     #[must_use]
     pub fn with_displacements(mut self, displacements: Vec<usize>) -> Self {
-        self.displacements = displacements;
+        (self.moved, self.displacements) = (vec![0.0; displacements.len()], displacements.into());
         self
     }
 
@@ -255,12 +258,13 @@ impl Coupling {
 
     /// Counts the work of a step that is about to be accepted.
     pub(crate) fn account(&mut self, sides: &mut Sides) -> Result<Work, IterationError> {
+        let Exchange { now, motion, .. } = &self.exchange;
+        self.displacements.moved(now, motion, &mut self.moved);
+        let ends = |before, after| if self.settings.mean_forces { [after, after] } else { [before, after] };
         let step = work::Step {
-            sent: [self.forces.now(), &self.lambda],
-            answered: [&self.answer_before, &self.answer],
-            motion: [&self.exchange.now, &self.exchange.motion],
-            means: self.settings.mean_forces,
-            displacements: &self.displacements,
+            sent: ends(self.forces.now(), &self.lambda[..]),
+            answered: ends(&self.answer_before[..], &self.answer[..]),
+            moved: &self.moved,
             given: sides.train_track.work()?,
         };
         let work = step.work();

@@ -3,7 +3,7 @@
 //! Start with [`iteration`]; [`subsystem::Subsystem`] is all it needs of either side. [`model::Model`] is what the
 //! project's own physics provides, [`instance::Instance`] gives a model the life cycle of an FMI 2.0 co-simulation slave,
 //! and [`in_process::InProcess`] couples such an instance without any FMU in between.
-//! Standard library only.
+//! Beyond the standard library it uses only pulp, for sums in the instructions of the CPU at hand.
 
 pub mod acceleration;
 pub mod adapted;

@@ -113,6 +113,9 @@ impl<S: Subsystem + ?Sized> Subsystem for Box<S> {
     fn restore(&mut self) -> Result<(), Failure> {
         (**self).restore()
     }
+    fn work(&mut self) -> Result<Option<f64>, Failure> {
+        (**self).work()
+    }
     fn can_interpolate(&self) -> bool {
         (**self).can_interpolate()
     }

@@ -1,6 +1,7 @@
 //! Trials of one step until both sides agree, and the sub-iterations of Newton's method between them.
 
 use crate::acceleration::Acceleration;
+use crate::dense::{each, norm};
 use crate::exchange::Sides;
 use crate::iteration::Coupling;
 use crate::report::{IterationError, Outcome, StepInfo};
@@ -99,13 +100,8 @@ impl Coupling {
 
     /// r = G − λ; |r| relative to max(|G|, one axle load).
     pub(crate) fn residual(&mut self) -> f64 {
-        let (mut squared_residual, mut squared_answer) = (0.0, 0.0);
-        for ((r, answer), lambda) in self.residual.iter_mut().zip(&self.answer).zip(&self.lambda) {
-            *r = answer - lambda;
-            squared_residual += *r * *r;
-            squared_answer += answer * answer;
-        }
-        squared_residual.sqrt() / squared_answer.sqrt().max(self.settings.force_scale)
+        each(&mut self.residual, [&self.answer, &self.lambda], |[answer, lambda]| answer - lambda);
+        norm(&self.residual) / norm(&self.answer).max(self.settings.force_scale)
     }
 
     /// The next λ; trials of the train–track subsystem alone that it took. With a model of the bridge, λ solves

@@ -16,6 +16,8 @@
 
 use std::ops::AddAssign;
 
+use crate::dense::{each, sum};
+
 /// Name of the output by which a train–track subsystem says W_T, J.
 pub const WORK: &str = "deck_work";
 
@@ -55,38 +57,54 @@ impl AddAssign for Work {
     }
 }
 
-/// Forces and motions at both ends of a step.
+/// What a step's work is counted from, one number a support each.
 pub(crate) struct Step<'a> {
-    /// λ_n, λ.
+    /// λ_n, λ; λ twice if it is a mean.
     pub sent: [&'a [f64]; 2],
-    /// G_n, G.
+    /// G_n, G; G twice if it is a mean.
     pub answered: [&'a [f64]; 2],
-    /// Motion of the deck.
-    pub motion: [&'a [f64]; 2],
-    /// Forces are means over the step.
-    pub means: bool,
-    /// Where in the motion each force finds its displacement.
-    pub displacements: &'a [usize],
+    /// Δd.
+    pub moved: &'a [f64],
     /// W_T, if train and track say.
     pub given: Option<f64>,
 }
 
 impl Step<'_> {
     pub fn work(&self) -> Work {
-        let mean = |[before, after]: [&[f64]; 2], i: usize| {
-            if self.means { after[i] } else { 0.5 * (before[i] + after[i]) }
-        };
-        let (mut work, mut answered) = (Work::default(), 0.0);
-        for (i, &at) in self.displacements.iter().enumerate() {
-            let moved = self.motion[1][at] - self.motion[0][at];
-            let (sent, answer) = (mean(self.sent, i), mean(self.answered, i));
-            work.received += sent * moved;
-            work.residual += (answer - sent) * moved;
-            answered += answer * moved;
-            work.turnover += (answer * moved).abs();
+        let ([sent_before, sent], [answered_before, answered]) = (self.sent, self.answered);
+        let work = |[before, after, moved]: [f64; 3]| 0.5 * (before + after) * moved;
+        let received = sum([sent_before, sent, self.moved], work);
+        let answers = [answered_before, answered, self.moved];
+        let (answered, turnover) = (sum(answers, work), sum(answers, |at| work(at).abs()));
+        Work { received, residual: answered - received, exchange: self.given.map_or(0.0, |w| w - answered), turnover }
+    }
+}
+
+/// Where in the motion the displacements of the supports stand, in the order of the forces.
+#[derive(Clone, Debug)]
+pub(crate) enum Displacements {
+    /// First of all, in that order.
+    First,
+    /// At these places.
+    At(Vec<usize>),
+}
+
+impl From<Vec<usize>> for Displacements {
+    fn from(places: Vec<usize>) -> Self {
+        let first = places.iter().enumerate().all(|(i, at)| i == *at);
+        if first { Self::First } else { Self::At(places) }
+    }
+}
+
+impl Displacements {
+    /// Δd of every support.
+    pub fn moved(&self, before: &[f64], after: &[f64], moved: &mut [f64]) {
+        match self {
+            Self::First => each(moved, [before, after], |[before, after]| after - before),
+            Self::At(places) => {
+                moved.iter_mut().zip(places).for_each(|(moved, at)| *moved = after[*at] - before[*at]);
+            }
         }
-        work.exchange = self.given.map_or(0.0, |given| given - answered);
-        work
     }
 }
 
@@ -99,20 +117,29 @@ mod tests {
         let step = Step {
             sent: [&[0.0, 4.0], &[2.0, 2.0]],
             answered: [&[0.0, 4.0], &[2.5, 2.0]],
-            motion: [&[1.0, 0.0, 9.0, 9.0], &[3.0, -1.0, 9.0, 9.0]],
-            means: false,
-            displacements: &[0, 1],
+            moved: &[2.0, -1.0],
             given: Some(0.0),
         };
-        // f̄_B = (1, 3), f̄_T = (1.25, 3), Δd = (2, −1)
+        // f̄_B = (1, 3), f̄_T = (1.25, 3)
         let work = step.work();
         assert_eq!(work, Work { received: -1.0, residual: 0.5, exchange: 0.5, turnover: 5.5 });
         assert_eq!((work.imbalance(), work.exchange_imbalance()), (1.0 / 5.5, 0.5 / 5.5));
         // As means: f̄_B = (2, 2), f̄_T = (2.5, 2).
-        let mut twice = Step { means: true, given: None, ..step }.work();
+        let (sent, answered) = ([step.sent[1]; 2], [step.answered[1]; 2]);
+        let mut twice = Step { sent, answered, given: None, ..step }.work();
         assert_eq!(twice, Work { received: 2.0, residual: 1.0, exchange: 0.0, turnover: 7.0 });
         twice += work;
         assert_eq!((twice.received, twice.turnover), (1.0, 12.5));
         assert_eq!(Work::default().imbalance(), 0.0);
+    }
+
+    #[test]
+    fn every_support_counts_however_many_there_are() {
+        for n in 0..11 {
+            let (ones, twos) = (vec![1.0; n], vec![2.0; n]);
+            let step = Step { sent: [&ones, &ones], answered: [&twos, &twos], moved: &twos, given: None };
+            let n = n as f64;
+            assert_eq!(step.work(), Work { received: 2.0 * n, residual: 2.0 * n, exchange: 0.0, turnover: 4.0 * n });
+        }
     }
 }

@@ -50,7 +50,6 @@ pub fn run(bench: &Bench, row: &Planned) -> Result<Ran, Error> {
     match ended {
         Err(Error::NotConverged(failed)) => ran.failure = Some(failed.to_string()),
         Err(other) => return Err(other),
-        Ok(_) if bench.stop.load(Ordering::Relaxed) => return Err(Error::Interrupted),
         Ok(_) => {}
     }
     Ok(ran)

@@ -10,7 +10,7 @@ mod rows;
 mod slopes;
 mod table;
 
-use std::sync::atomic::AtomicBool;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use indicatif::ProgressBar;
 use ttb_scenario::Checked;
@@ -39,43 +39,30 @@ pub fn compare(arguments: &Compare) -> Result<(), Error> {
     let folder = &arguments.output;
     std::fs::create_dir_all(folder).map_err(Error::io(folder))?;
     let stop = stop_on_interrupt();
-    let budget = arguments.budget.unwrap_or(f64::INFINITY);
-    let mut bench = Bench { checked: &checked, watched, budget, stop: &stop, quiet: arguments.quiet };
+    let mut bench = Bench { checked: &checked, watched, budget: f64::INFINITY, stop: &stop, quiet: arguments.quiet };
     let mut prepared = reference::Prepared::default();
     let planned = plan(arguments, &bench, &mut prepared)?;
     let fine = arguments.reference.fine(checked.train_track.step);
     // The fine run is not timed against the others and takes what it takes.
     let truth = match fine {
-        Some(h) => {
-            bench.budget = f64::INFINITY;
-            let row = Planned::reference(h);
-            let ran = hybrid::run(&bench, &row)?;
-            bench.budget = budget;
-            Some(ran)
-        }
+        Some(h) => Some(hybrid::run(&bench, &Planned::reference(h))?),
         None => None,
     };
-    let (mut done, mut interrupted) = (Vec::new(), false);
-    for row in &planned {
+    let mut done = Vec::new();
+    for row in planned.iter().take_while(|_| !stop.load(Ordering::Relaxed)) {
+        bench.budget = row.budget(&arguments.budget);
         let ran = match row.method {
             rows::Method::Hybrid | rows::Method::Multi => hybrid::run(&bench, row),
             _ => reference::run(&bench, row, &mut prepared),
         };
-        match ran {
-            Ok(ran) => done.push(ran),
-            Err(Error::Interrupted) => {
-                interrupted = true;
-                break;
-            }
-            Err(error) => return Err(error),
-        }
+        done.push(ran?);
     }
     figures::draw(&done, truth.as_ref(), &bench.watched, folder)?;
     done.extend(truth.clone());
     let table = table::Table::new(&done, truth.as_ref(), &bench.watched);
     table.write(&checked, folder)?;
     table.print(&checked, folder);
-    if interrupted { Err(Error::Interrupted) } else { Ok(()) }
+    if stop.load(Ordering::Relaxed) { Err(Error::Interrupted) } else { Ok(()) }
 }
 
 /// A row's progress on a terminal.

@@ -91,11 +91,7 @@ pub fn run(bench: &Bench, row: &Planned, prepared: &mut Prepared) -> Result<Ran,
         ran.factors += factors as u64;
         bar.set_position(n);
         ran.stepping = cpu() - begin;
-        if bench.stop.load(Ordering::Relaxed) {
-            bar.finish_and_clear();
-            return Err(Error::Interrupted);
-        }
-        if ran.stepping > bench.budget {
+        if ran.stepping > bench.budget || bench.stop.load(Ordering::Relaxed) {
             break;
         }
     }

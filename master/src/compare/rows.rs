@@ -2,7 +2,7 @@
 
 use ttb_reference::{Method as Reference, Stepper};
 
-use crate::cli::{Compare, Compared};
+use crate::cli::{Budget, Compare, Compared};
 use crate::compare::reference::Prepared;
 use crate::compare::{Bench, hybrid};
 use crate::error::Error;
@@ -46,6 +46,13 @@ impl Planned {
             Method::Multi => "HSA, multi-time-step",
         };
         Self { method, step, name: name.into() }
+    }
+
+    /// CPU time its steps may take, s: its method's, or that of all.
+    pub fn budget(&self, budgets: &[Budget]) -> f64 {
+        let own = |b: &&Budget| b.method.is_some_and(|method| Method::from(method) == self.method);
+        let found = budgets.iter().find(own).or_else(|| budgets.iter().find(|b| b.method.is_none()));
+        found.map_or(f64::INFINITY, |b| b.seconds)
     }
 
     /// The run that the others are measured with.

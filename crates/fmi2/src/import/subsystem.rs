@@ -5,6 +5,7 @@ use super::error::FmuError;
 use super::instance::FmuInstance;
 use super::state::StateSlot;
 use super::transform::{Linear, Transform};
+use ttb_coupling::dense::not_finite;
 use ttb_coupling::work::WORK;
 use ttb_coupling::{Failure, Subsystem};
 
@@ -121,7 +122,7 @@ impl Subsystem for FmuSubsystem {
     /// Refuses NaN and infinity: one such number would poison everything it meets.
     fn get_outputs(&mut self, outputs: &mut [f64]) -> Result<(), Failure> {
         self.instance.get_real(&self.outputs, outputs).map_err(|e| self.failure(&e))?;
-        match outputs.iter().position(|x| !x.is_finite()) {
+        match not_finite(outputs) {
             None => {
                 self.transform.iter().for_each(|transform| transform.outputs(outputs));
                 Ok(())
