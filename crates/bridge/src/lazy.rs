@@ -85,11 +85,11 @@ impl Lazy {
     }
 
     /// x ← x + Bᵀ f of [`LANES`] runs.
-    pub fn load_many(&self, forces: [&[f64]; LANES], x: &mut [f64]) {
+    pub fn load_many(&self, forces: &[&[f64]; LANES], x: &mut [f64]) {
         for i in 0..self.supports {
             for (&c, w) in self.rows.columns(i).iter().zip(self.rows.weights(i)) {
                 let x = &mut x[c as usize * LANES..][..LANES];
-                x.iter_mut().zip(&forces).for_each(|(x, f)| *x += w * f[i]);
+                x.iter_mut().zip(forces).for_each(|(x, f)| *x += w * f[i]);
             }
         }
     }

@@ -1,4 +1,4 @@
-//! Several runs over one bridge in lockstep, for sweeps: [`LANES`] of them share the factor's way through memory.
+//! Several runs over one bridge in lockstep, for sweeps: [`RUNS`] of them share the factor's way through memory.
 //!
 //! ```text
 //! begin    y = L⁻¹ p  of all runs           one sweep over L for all
@@ -7,7 +7,7 @@
 //! ```
 //!
 //! The runs may differ in train, speed and track; step size and bridge are the same. Everything stands in the order of
-//! elimination, number i of all runs side by side. Rayleigh damping or none ([`crate::full`] has the equations).
+//! elimination, in groups of [`LANES`] runs, number i of all of a group side by side. Rayleigh damping or none ([`crate::full`] has the equations).
 
 use ttb_coupling::ModelError;
 use ttb_dynamics::dense::Dense;
@@ -20,7 +20,12 @@ use crate::lazy::Lazy;
 use crate::rows::Rows;
 use crate::system::Law;
 
-/// Motion and bases of [`LANES`] runs.
+/// Groups of runs: L is read once for all, and once more from near for each.
+const GROUPS: usize = 2;
+/// Runs in lockstep.
+pub const RUNS: usize = GROUPS * LANES;
+
+/// Motion and bases of [`RUNS`] runs.
 pub struct Lockstep {
     factor: Factor,
     lazy: Lazy,
@@ -35,7 +40,7 @@ pub struct Lockstep {
     known: Vec<f64>,
     work: Vec<f64>,
     buffer: Vec<f64>,
-    /// r⁰ of every run, row by row.
+    /// r⁰ by groups, row by row.
     free: Vec<f64>,
 }
 
@@ -57,9 +62,9 @@ impl Lockstep {
         let mass = pencil.mass_in(&pattern.position);
         let [alpha, _, share] = law.history(&newmark);
         let constants = [law.mass, alpha, share];
-        let zeros = vec![0.0; pattern.order.len() * LANES];
+        let zeros = vec![0.0; pattern.order.len() * RUNS];
         let [u, v, a, y, known, work] = std::array::from_fn(|_| zeros.clone());
-        let free = vec![0.0; rows.len() * LANES];
+        let free = vec![0.0; rows.len() * RUNS];
         Ok(Self { factor, lazy, mass, newmark, constants, u, v, a, y, known, work, buffer: Vec::new(), free })
     }
 
@@ -79,13 +84,16 @@ impl Lockstep {
         self.work.copy_from_slice(&self.y);
         pattern.backward_many(numbers, &mut self.work, &mut self.buffer, Which::Some(self.lazy.reach()));
         self.work.iter_mut().zip(&self.known).for_each(|(x, g)| *x += g);
-        self.lazy.see_many(&self.work, &mut self.free);
+        let (of_work, of_free) = (self.work.len() / GROUPS, self.free.len() / GROUPS);
+        let groups = self.work.chunks_exact(of_work).zip(self.free.chunks_exact_mut(of_free));
+        groups.for_each(|(x, r)| self.lazy.see_many(x, r));
     }
 
     /// r₁ of one run under its forces f₁, between `begin` and `finish`.
     pub fn trial(&self, run: usize, forces: &[f64], r: &mut [f64]) {
         self.compliance().multiply(forces, r);
-        r.iter_mut().zip(self.free.chunks_exact(LANES)).for_each(|(r, free)| *r += free[run]);
+        let group = self.free.chunks_exact(self.free.len() / GROUPS).nth(run / LANES).unwrap_or_default();
+        r.iter_mut().zip(group.chunks_exact(LANES)).for_each(|(r, free)| *r += free[run % LANES]);
     }
 
     /// S.
@@ -94,10 +102,12 @@ impl Lockstep {
     }
 
     /// Ends the step with the forces of every run.
-    pub fn finish(&mut self, forces: [&[f64]; LANES]) {
+    pub fn finish(&mut self, forces: [&[f64]; RUNS]) {
         let Some((pattern, numbers)) = self.factor.panels() else { return };
         self.work.fill(0.0);
-        self.lazy.load_many(forces, &mut self.work);
+        let of_work = self.work.len() / GROUPS;
+        let groups = self.work.chunks_exact_mut(of_work).zip(forces.as_chunks().0);
+        groups.for_each(|(x, forces)| self.lazy.load_many(forces, x));
         pattern.forward_many(numbers, &mut self.work, &mut self.buffer, Which::Some(self.lazy.support_reach()));
         self.y.iter_mut().zip(&self.work).for_each(|(y, x)| *y += x);
         pattern.backward_many(numbers, &mut self.y, &mut self.buffer, Which::All);

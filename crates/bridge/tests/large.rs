@@ -7,7 +7,7 @@ use std::sync::Arc;
 use common::{Train, drive, outputs, stepping};
 use ttb_bridge::Bridge;
 use ttb_bridge::full::Full;
-use ttb_bridge::lockstep::Lockstep;
+use ttb_bridge::lockstep::{Lockstep, RUNS};
 use ttb_bridge::rows::Rows;
 use ttb_bridge::space;
 use ttb_bridge::system::{Base, Law, System, Work};
@@ -15,7 +15,6 @@ use ttb_coupling::{Instance, Model};
 use ttb_dynamics::factor::Layout;
 use ttb_dynamics::newmark::{Motion, Newmark};
 use ttb_dynamics::sparse::Pencil;
-use ttb_dynamics::sweeps::LANES;
 use ttb_generate::simple_span;
 use ttb_scenario::spec::{BridgeSpec, StructureSpec};
 use ttb_scenario::types::{Damping, Model as Elements, RayleighAt, Reduction, Springs};
@@ -192,12 +191,12 @@ fn runs_in_lockstep_are_the_runs_alone() {
     let mut together = Lockstep::new(&pencil, &law(), newmark, &sparse, supports).unwrap();
     let full = Arc::new(Full::new(Arc::clone(&pencil), None, Default::default()));
     let step = full.prepare(&law(), newmark, &sparse, supports).unwrap();
-    let mut alone: Vec<Base> = (0..LANES).map(|_| Base { motion: Motion::rest(n), ..Base::default() }).collect();
+    let mut alone: Vec<Base> = (0..RUNS).map(|_| Base { motion: Motion::rest(n), ..Base::default() }).collect();
     let (mut work, mut next, mut seen, mut trial) =
         (Work::default(), Motion::rest(n), Motion::default(), vec![0.0; rows.len()]);
     for k in 0..5 {
-        let of_run = |run: usize| (0..supports).map(|i| 1e4 * ((i * (run + 1) + k) % 9) as f64).collect::<Vec<f64>>();
-        let forces: Vec<Vec<f64>> = (0..LANES).map(of_run).collect();
+        let of_run = |run: usize| (0..supports).map(|i| 1e4 * ((i * (run + 1) + k) % 19) as f64).collect::<Vec<f64>>();
+        let forces: Vec<Vec<f64>> = (0..RUNS).map(of_run).collect();
         together.begin();
         for (run, base) in alone.iter_mut().enumerate() {
             step.begin(base, &mut work);

@@ -20,7 +20,7 @@ use crate::sparse::Pencil;
 use crate::vector::dot;
 
 /// Vectors in a block.
-const BLOCK: usize = 32;
+const BLOCK: usize = 16;
 /// Squares below this part of what they were before the orthogonalisation are rounding.
 const ROUNDING: f64 = 1e-22;
 /// Residual of A φ = θ φ relative to θ at which a mode is taken as found.
@@ -153,7 +153,7 @@ impl<'a> Krylov<'a> {
         loop {
             if self.t.is_empty() || !first {
                 // A look costs a dense eigenproblem: not after every block.
-                self.advance(4 + self.t.len() / (3 * BLOCK));
+                self.advance(4 + self.t.len() / (10 * BLOCK));
             }
             first = false;
             let p = self.t.len();
@@ -198,10 +198,18 @@ fn columns(numbers: &[f64], n: usize) -> MatRef<'_, f64> {
     MatRef::from_column_major_slice(numbers, n, numbers.len() / n)
 }
 
+/// Rows of a basis that are multiplied at a time.
+const NEAR: usize = 512;
+
 /// X ← X − Q C.
 fn subtract(x: &mut [f64], n: usize, q: MatRef<'_, f64>, c: &Mat<f64>) {
-    let x = MatMut::from_column_major_slice_mut(x, n, c.ncols());
-    matmul(x, Accum::Add, q, c.as_ref(), -1.0, Par::Seq);
+    let mut x = MatMut::from_column_major_slice_mut(x, n, c.ncols());
+    // By rows that stay near: a fifth quicker.
+    for first in (0..n).step_by(NEAR) {
+        let rows = NEAR.min(n - first);
+        let (x, q) = (x.as_mut().subrows_mut(first, rows), q.subrows(first, rows));
+        matmul(x, Accum::Add, q, c.as_ref(), -1.0, Par::Seq);
+    }
 }
 
 /// X C.

@@ -20,7 +20,7 @@
 
 use faer::{Mat, MatRef, Side};
 
-use crate::blocks::{inner, solve};
+use crate::blocks::{inner, solve_loads};
 use crate::dense::Dense;
 use crate::factor::Factor;
 use crate::krylov::{Krylov, Ritz};
@@ -136,10 +136,12 @@ fn responses(
     const BLOCK: usize = 64;
     let (n, s) = (pencil.ndof(), loads.len());
     let mut z = vec![0.0; n * s];
-    for (column, load) in z.chunks_exact_mut(n).zip(loads) {
-        load.iter().for_each(|(dof, w)| column[*dof as usize] += w);
+    for (block, loads) in z.chunks_mut(n * BLOCK).zip(loads.chunks(BLOCK)) {
+        for (column, load) in block.chunks_exact_mut(n).zip(loads) {
+            load.iter().for_each(|(dof, w)| column[*dof as usize] += w);
+        }
+        solve_loads(factor, block, loads.iter().flatten().map(|(dof, _)| *dof));
     }
-    z.chunks_mut(n * BLOCK).for_each(|block| solve(factor, block));
     let seen =
         Mat::from_fn(rows.len(), s, |i, j| rows[i].iter().map(|(dof, w)| w * z[j * n + *dof as usize]).sum::<f64>());
     // ZᵀMZ is symmetric: its upper half by blocks of columns, the other mirrored.

@@ -7,7 +7,7 @@
 use faer::sparse::{SparseColMatRef, SymbolicSparseColMat};
 
 use crate::factor::{Factor, FactorError, Layout, Symbolic};
-use crate::sweeps::LANES;
+use crate::sweeps::{LANES, subtract};
 
 /// Collects element matrices.
 #[derive(Clone, Debug, Default)]
@@ -177,10 +177,11 @@ impl Symmetric {
 pub struct Product(Symmetric);
 
 impl Product {
-    /// Y ← Y + A X for [`LANES`] vectors side by side.
+    /// Y ← Y + A X for groups of [`LANES`] vectors side by side, one group after the other.
     pub fn add_many(&self, x: &[f64], y: &mut [f64]) {
-        let ((x, _), (y, _)) = (x.as_chunks(), y.as_chunks_mut());
-        pulp::Arch::new().dispatch(Many { matrix: &self.0, x, y });
+        let n = self.0.starts.len() - 1;
+        let groups = x.as_chunks().0.chunks_exact(n).zip(y.as_chunks_mut().0.chunks_exact_mut(n));
+        groups.for_each(|(x, y)| pulp::Arch::new().dispatch(Many { matrix: &self.0, x, y }));
     }
 }
 
@@ -194,16 +195,16 @@ impl pulp::WithSimd for Many<'_> {
     type Output = ();
 
     #[inline(always)]
-    fn with_simd<S: pulp::Simd>(self, _: S) {
+    fn with_simd<S: pulp::Simd>(self, simd: S) {
         let Self { matrix: Symmetric { starts, rows, values }, x, y } = self;
         for (j, xj) in x.iter().enumerate() {
             let column = starts[j] as usize..starts[j + 1] as usize;
             let mut yj = y[j];
             for (&i, a) in rows[column.clone()].iter().zip(&values[column]) {
                 if i as usize != j {
-                    y[i as usize].iter_mut().zip(xj).for_each(|(y, x)| *y += a * x);
+                    subtract(simd, &mut y[i as usize], -a, xj);
                 }
-                yj.iter_mut().zip(&x[i as usize]).for_each(|(y, x)| *y += a * x);
+                subtract(simd, &mut yj, -a, &x[i as usize]);
             }
             y[j] = yj;
         }

@@ -255,13 +255,13 @@ impl Pattern {
         self.panels_of(numbers).backward(y, buffer, which);
     }
 
-    /// As [`Pattern::forward`] for [`LANES`] right-hand sides, interleaved.
+    /// As [`Pattern::forward`] for groups of [`LANES`] right-hand sides, interleaved.
     pub fn forward_many(&self, numbers: &Numbers, y: &mut [f64], buffer: &mut Vec<f64>, which: Which) {
         buffer.resize(self.height * LANES, 0.0);
         self.panels_of(numbers).forward_many(y, buffer, which);
     }
 
-    /// As [`Pattern::backward`] for [`LANES`] right-hand sides, interleaved.
+    /// As [`Pattern::backward`] for groups of [`LANES`] right-hand sides, interleaved.
     pub fn backward_many(&self, numbers: &Numbers, y: &mut [f64], buffer: &mut Vec<f64>, which: Which) {
         buffer.resize(self.height * LANES, 0.0);
         self.panels_of(numbers).backward_many(y, buffer, which);

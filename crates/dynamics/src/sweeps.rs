@@ -12,7 +12,7 @@
 
 use pulp::{Arch, Simd, WithSimd};
 
-/// Right-hand sides that [`Panels::forward_many`] and [`Panels::backward_many`] take at once.
+/// Right-hand sides in a group of [`Panels::forward_many`] and [`Panels::backward_many`].
 pub const LANES: usize = 8;
 
 /// A supernodal factor, lent.
@@ -72,14 +72,14 @@ impl<const FORWARD: bool, const MANY: bool> WithSimd for Sweep<'_, FORWARD, MANY
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
         let Self { panels, y, buffer, which } = self;
-        let count = which.len(panels.count());
+        let (count, n) = (which.len(panels.count()), panels.inverse_diagonal.len());
         for i in 0..count {
             let s = which.at(if FORWARD { i } else { count - 1 - i });
             match (FORWARD, MANY) {
                 (true, false) => panels.forward_panel(s, y, buffer),
                 (false, false) => panels.backward_panel(s, y, buffer),
-                (true, true) => panels.forward_panel_many(simd, s, y, buffer),
-                (false, true) => panels.backward_panel_many(simd, s, y, buffer),
+                (true, true) => groups(y, n).for_each(|y| panels.forward_panel_many(simd, s, y, buffer)),
+                (false, true) => groups(y, n).for_each(|y| panels.backward_panel_many(simd, s, y, buffer)),
             }
         }
     }
@@ -172,7 +172,8 @@ impl<'a> Panels<'a> {
     }
 }
 
-/// The same for [`LANES`] right-hand sides, row i of all in `y[i * LANES..]`; `buffer` holds LANES times as much.
+/// The same for groups of [`LANES`] right-hand sides, one group after the other, row i of all its members in
+/// `y[i * LANES..]`; `buffer` holds LANES times as much. While a panel is near, it serves all groups.
 impl Panels<'_> {
     /// Y ← L⁻¹ Y over `which` panels.
     pub fn forward_many(&self, y: &mut [f64], buffer: &mut [f64], which: Which) {
@@ -185,10 +186,9 @@ impl Panels<'_> {
     }
 
     #[inline(always)]
-    fn forward_panel_many<S: Simd>(&self, simd: S, s: usize, y: &mut [f64], buffer: &mut [f64]) {
+    fn forward_panel_many<S: Simd>(&self, simd: S, s: usize, y: &mut [[f64; LANES]], buffer: &mut [f64]) {
         let (begin, width, rows, values) = self.panel(s);
         let height = width + rows.len();
-        let (y, _) = y.as_chunks_mut::<LANES>();
         let (buffer, _) = buffer.as_chunks_mut::<LANES>();
         let buffer = &mut buffer[..height];
         buffer[..width].copy_from_slice(&y[begin..begin + width]);
@@ -224,10 +224,9 @@ impl Panels<'_> {
     }
 
     #[inline(always)]
-    fn backward_panel_many<S: Simd>(&self, simd: S, s: usize, y: &mut [f64], buffer: &mut [f64]) {
+    fn backward_panel_many<S: Simd>(&self, simd: S, s: usize, y: &mut [[f64; LANES]], buffer: &mut [f64]) {
         let (begin, width, rows, values) = self.panel(s);
         let height = width + rows.len();
-        let (y, _) = y.as_chunks_mut::<LANES>();
         let (buffer, _) = buffer.as_chunks_mut::<LANES>();
         let (head, tail) = buffer[..height].split_at_mut(width);
         head.copy_from_slice(&y[begin..begin + width]);
@@ -261,6 +260,12 @@ impl Panels<'_> {
     }
 }
 
+/// Groups of [`LANES`] right-hand sides with n rows.
+#[inline(always)]
+fn groups(y: &mut [f64], n: usize) -> impl Iterator<Item = &mut [[f64; LANES]]> {
+    y.as_chunks_mut().0.chunks_exact_mut(n)
+}
+
 /// R of the columns j … j + 3 of a panel.
 #[inline(always)]
 fn below(values: &[f64], height: usize, width: usize, j: usize) -> [&[f64]; 4] {
@@ -269,9 +274,9 @@ fn below(values: &[f64], height: usize, width: usize, j: usize) -> [&[f64]; 4] {
 
 /// y ← y − l x.
 #[inline(always)]
-fn subtract<S: Simd>(simd: S, y: &mut [f64; LANES], l: f64, x: &[f64; LANES]) {
-    let ((y, _), (x, _), l) = (S::as_mut_simd_f64s(y), S::as_simd_f64s(x), simd.splat_f64s(l));
-    y.iter_mut().zip(x).for_each(|(y, x)| *y = simd.sub_f64s(*y, simd.mul_f64s(l, *x)));
+pub(crate) fn subtract<S: Simd>(simd: S, y: &mut [f64; LANES], l: f64, x: &[f64; LANES]) {
+    let ((y, _), (x, _), l) = (S::as_mut_simd_f64s(y), S::as_simd_f64s(x), simd.splat_f64s(-l));
+    y.iter_mut().zip(x).for_each(|(y, x)| *y = simd.mul_add_e_f64s(l, *x, *y));
 }
 
 /// Solves with the lower triangle of four columns at rows j … j + 3.

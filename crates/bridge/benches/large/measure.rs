@@ -4,7 +4,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use ttb_bridge::full::Full;
-use ttb_bridge::lockstep::Lockstep;
+use ttb_bridge::lockstep::{Lockstep, RUNS};
 use ttb_bridge::rows::Rows;
 use ttb_bridge::structure::eliminated_last;
 use ttb_bridge::system::{Base, Law, Step, System, Work};
@@ -13,7 +13,6 @@ use ttb_dynamics::damping::rayleigh;
 use ttb_dynamics::factor::Layout;
 use ttb_dynamics::newmark::{Motion, Newmark};
 use ttb_dynamics::sparse::Pencil;
-use ttb_dynamics::sweeps::LANES;
 use ttb_scenario::spec::StructureSpec;
 use ttb_scenario::types::Reduction;
 
@@ -136,8 +135,8 @@ fn together(pencil: &Pencil, law: &Law, newmark: Newmark, rows: &Rows, supports:
     let (forces, mut seen) = (vec![1e4; supports], vec![0.0; rows.len()]);
     let step = least(10, || {
         runs.begin();
-        (0..2 * LANES).for_each(|i| runs.trial(i % LANES, &forces, &mut seen));
-        runs.finish([&forces; LANES]);
+        (0..2 * RUNS).for_each(|i| runs.trial(i % RUNS, &forces, &mut seen));
+        runs.finish([&forces; RUNS]);
     });
-    step / LANES as f64
+    step / RUNS as f64
 }
