@@ -77,7 +77,7 @@ impl<const FORWARD: bool, const MANY: bool> WithSimd for Sweep<'_, FORWARD, MANY
             let s = which.at(if FORWARD { i } else { count - 1 - i });
             match (FORWARD, MANY) {
                 (true, false) => panels.forward_panel(s, y, buffer),
-                (false, false) => panels.backward_panel(s, y, buffer),
+                (false, false) => panels.backward_panel(simd, s, y, buffer),
                 (true, true) => groups(y, n).for_each(|y| panels.forward_panel_many(simd, s, y, buffer)),
                 (false, true) => groups(y, n).for_each(|y| panels.backward_panel_many(simd, s, y, buffer)),
             }
@@ -142,7 +142,7 @@ impl<'a> Panels<'a> {
     }
 
     #[inline(always)]
-    fn backward_panel(&self, s: usize, y: &mut [f64], buffer: &mut [f64]) {
+    fn backward_panel<S: Simd>(&self, simd: S, s: usize, y: &mut [f64], buffer: &mut [f64]) {
         let (begin, width, rows, values) = self.panel(s);
         let height = width + rows.len();
         let buffer = &mut buffer[..height];
@@ -154,7 +154,7 @@ impl<'a> Panels<'a> {
         // Rᵀ x_r first, front to back as the memory likes it; D is then still near.
         let mut j = 0;
         while j + 4 <= width {
-            let sums = dots(below(values, height, width, j), tail);
+            let sums = dots(simd, below(values, height, width, j), tail);
             head[j..j + 4].iter_mut().zip(sums).for_each(|(x, sum)| *x -= sum);
             j += 4;
         }
@@ -307,22 +307,18 @@ fn dot(a: &[f64], b: &[f64]) -> f64 {
 
 /// Four columns against one vector.
 #[inline(always)]
-fn dots([a, b, c, d]: [&[f64]; 4], t: &[f64]) -> [f64; 4] {
-    let mut lanes = [[0.0; WIDE]; 4];
-    let (chunks, rest) = t.as_chunks::<WIDE>();
-    let [aa, bb, cc, dd] = [a, b, c, d].map(|column| column.as_chunks::<WIDE>().0);
-    for ((((t, a), b), c), d) in chunks.iter().zip(aa).zip(bb).zip(cc).zip(dd) {
-        for k in 0..WIDE {
-            lanes[0][k] += a[k] * t[k];
-            lanes[1][k] += b[k] * t[k];
-            lanes[2][k] += c[k] * t[k];
-            lanes[3][k] += d[k] * t[k];
+fn dots<S: Simd>(simd: S, columns: [&[f64]; 4], t: &[f64]) -> [f64; 4] {
+    let (t, t_rest) = S::as_simd_f64s(t);
+    let [a, b, c, d] = columns.map(|column| S::as_simd_f64s(column).0);
+    let mut lanes = [simd.splat_f64s(0.0); 4];
+    for ((((t, a), b), c), d) in t.iter().zip(a).zip(b).zip(c).zip(d) {
+        for (lanes, l) in lanes.iter_mut().zip([a, b, c, d]) {
+            *lanes = simd.mul_add_e_f64s(*l, *t, *lanes);
         }
     }
-    let mut sums = lanes.map(|lanes| (lanes[0] + lanes[1]) + (lanes[2] + lanes[3]));
-    let whole = t.len() - rest.len();
-    for (sum, column) in sums.iter_mut().zip([a, b, c, d]) {
-        *sum += column[whole..].iter().zip(rest).map(|(l, t)| l * t).sum::<f64>();
-    }
-    sums
+    let rests = columns.map(|column| &column[column.len() - t_rest.len()..]);
+    std::array::from_fn(|k| {
+        let rest: f64 = rests[k].iter().zip(t_rest).map(|(l, t)| l * t).sum();
+        simd.reduce_sum_f64s(lanes[k]) + rest
+    })
 }
