@@ -28,7 +28,8 @@ pub struct Row {
     /// Their differences from the reference run, relative.
     #[serde(skip_serializing_if = "Option::is_none")]
     peak_differences: Option<[f64; 4]>,
-    /// Greatest differences of the four histories from the first row of equal step, relative to the greatest of all rows.
+    /// Greatest differences of the four histories from the row of equal step above that went furthest, relative to the
+    /// greatest of all rows.
     #[serde(skip_serializing_if = "Option::is_none")]
     equal_step_differences: Option<[f64; 4]>,
     notes: Vec<String>,
@@ -54,7 +55,9 @@ impl Table {
         let row = |(place, ran): (usize, &Ran)| {
             let until = |truth: &Ran| ran.reached().min(truth.reached());
             let relative = |truth: &Ran, q: usize| ran.peak(q, until(truth)) / truth.peak(q, until(truth)) - 1.0;
-            let equal = rows[..place].iter().find(|other| (other.step / ran.step - 1.0).abs() < 1e-9);
+            let of_equal_step = rows[..place].iter().filter(|other| (other.step / ran.step - 1.0).abs() < 1e-9);
+            // The first of those that went furthest: one that was cut short says little.
+            let equal = of_equal_step.rev().max_by(|a, b| a.reached().total_cmp(&b.reached()));
             Row {
                 method: ran.method.clone(),
                 step_s: ran.step,
@@ -190,7 +193,7 @@ impl Table {
                 .chain(stopped)
                 .for_each(|note| say!("  {} at {:.4} ms: {note}", row.method, 1e3 * row.step_s));
         }
-        say!("  equal h: greatest difference of the four histories from the first row of the same step, relative");
+        say!("  equal h: greatest difference of the four histories from the furthest row above of that step, relative");
         say!("  results in {}", folder.display());
     }
 }
