@@ -7,7 +7,8 @@
 //! ```
 //!
 //! The runs may differ in train, speed and track; step size and bridge are the same. Everything stands in the order of
-//! elimination, in groups of [`LANES`] runs, number i of all of a group side by side. Rayleigh damping or none ([`crate::full`] has the equations).
+//! elimination, in groups of [`LANES`] runs, number i of all of a group side by side. Rayleigh damping or none
+//! ([`crate::full`] has the equations).
 
 use ttb_coupling::ModelError;
 use ttb_dynamics::dense::Dense;

@@ -1,4 +1,5 @@
-//! A dense matrix and its factors: all the linear algebra an interface Jacobian needs.
+//! Sums over vectors, and a dense matrix with its factors: all the linear algebra the iteration and an interface Jacobian
+//! need.
 
 use pulp::{Arch, Simd, WithSimd};
 
