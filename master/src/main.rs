@@ -38,20 +38,19 @@ mod stretch;
 mod summary;
 mod system;
 
-use std::process::ExitCode;
-
 use clap::Parser;
 use cli::{Cli, Command};
 use error::Error;
 
-fn main() -> ExitCode {
-    match execute(Cli::parse().command) {
-        Ok(()) => ExitCode::SUCCESS,
+fn main() {
+    let code = match execute(Cli::parse().command) {
+        Ok(()) => 0,
         Err(error) => {
             eprintln!("ttb: {error}");
-            ExitCode::from(error.code())
+            error.code()
         }
-    }
+    };
+    ttb_fmi2::import::leave(code)
 }
 
 fn execute(command: Command) -> Result<(), Error> {
