@@ -38,9 +38,12 @@ mod stretch;
 mod summary;
 mod system;
 
+use std::io::Write;
+
 use clap::Parser;
 use cli::{Cli, Command};
 use error::Error;
+use ttb_fmi2::import::leave;
 
 fn main() {
     let code = match execute(Cli::parse().command) {
@@ -50,7 +53,9 @@ fn main() {
             error.code()
         }
     };
-    ttb_fmi2::import::leave(code)
+    // Nobody is left to be told of a pipe that broke.
+    let _ = std::io::stdout().flush();
+    leave(code)
 }
 
 fn execute(command: Command) -> Result<(), Error> {

@@ -8,7 +8,7 @@ use std::time::Instant;
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use ttb_coupling::run::{TimeAxis, run as run_steps};
-use ttb_fmi2::import::FmuSubsystem;
+use ttb_fmi2::import::{FmuSubsystem, leave};
 
 use crate::auto;
 use crate::build;
@@ -275,7 +275,7 @@ pub fn stop_on_interrupt() -> Arc<AtomicBool> {
     // Without a handler Ctrl-C ends the program at once: no reason not to run.
     if let Err(error) = ctrlc::set_handler(move || {
         if flag.swap(true, Ordering::Relaxed) {
-            std::process::exit(130);
+            leave(130);
         }
     }) {
         eprintln!("ttb: warning: Ctrl-C will not keep results: {error}");

@@ -1,5 +1,6 @@
 //! An [`Instance`] coupled without an FMU: the library run.
 
+use crate::dense::not_finite;
 use crate::instance::{Instance, Snapshot};
 use crate::model::{Model, ModelError};
 use crate::subsystem::{Failure, Subsystem};
@@ -41,7 +42,7 @@ impl<M: Model> Subsystem for InProcess<M> {
     }
     fn get_outputs(&mut self, outputs: &mut [f64]) -> Result<(), Failure> {
         self.instance.get(&self.outputs, outputs).map_err(|e| self.failure(&e))?;
-        let Some(index) = outputs.iter().position(|x| !x.is_finite()) else { return Ok(()) };
+        let Some(index) = not_finite(outputs) else { return Ok(()) };
         let name = &self.instance.model().interface().variables()[self.outputs[index] as usize].name;
         Err(self.failure(&ModelError(format!("output {name} is {}", outputs[index]))))
     }

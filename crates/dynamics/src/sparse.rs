@@ -7,7 +7,7 @@
 use faer::sparse::{SparseColMatRef, SymbolicSparseColMat};
 
 use crate::factor::{Factor, FactorError, Layout, Symbolic};
-use crate::sweeps::{LANES, subtract};
+use crate::sweeps::{LANES, add};
 
 /// Collects element matrices.
 #[derive(Clone, Debug, Default)]
@@ -202,9 +202,9 @@ impl pulp::WithSimd for Many<'_> {
             let mut yj = y[j];
             for (&i, a) in rows[column.clone()].iter().zip(&values[column]) {
                 if i as usize != j {
-                    subtract(simd, &mut y[i as usize], -a, xj);
+                    add(simd, &mut y[i as usize], *a, xj);
                 }
-                subtract(simd, &mut yj, -a, &x[i as usize]);
+                add(simd, &mut yj, *a, &x[i as usize]);
             }
             y[j] = yj;
         }

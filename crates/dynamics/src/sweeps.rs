@@ -274,9 +274,15 @@ fn below(values: &[f64], height: usize, width: usize, j: usize) -> [&[f64]; 4] {
 
 /// y ← y − l x.
 #[inline(always)]
-pub(crate) fn subtract<S: Simd>(simd: S, y: &mut [f64; LANES], l: f64, x: &[f64; LANES]) {
-    let ((y, _), (x, _), l) = (S::as_mut_simd_f64s(y), S::as_simd_f64s(x), simd.splat_f64s(-l));
-    y.iter_mut().zip(x).for_each(|(y, x)| *y = simd.mul_add_e_f64s(l, *x, *y));
+fn subtract<S: Simd>(simd: S, y: &mut [f64; LANES], l: f64, x: &[f64; LANES]) {
+    add(simd, y, -l, x);
+}
+
+/// y ← y + a x.
+#[inline(always)]
+pub(crate) fn add<S: Simd>(simd: S, y: &mut [f64; LANES], a: f64, x: &[f64; LANES]) {
+    let ((y, _), (x, _), a) = (S::as_mut_simd_f64s(y), S::as_simd_f64s(x), simd.splat_f64s(a));
+    y.iter_mut().zip(x).for_each(|(y, x)| *y = simd.mul_add_e_f64s(a, *x, *y));
 }
 
 /// Solves with the lower triangle of four columns at rows j … j + 3.

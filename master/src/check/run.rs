@@ -2,6 +2,8 @@
 
 use std::time::{Duration, Instant};
 
+use ttb_coupling::dense::not_finite;
+
 use super::drive::{Drive, open};
 use super::finding::Finding;
 use super::worker::Context;
@@ -30,7 +32,7 @@ pub fn run(context: &Context) -> Result<(), Finding> {
                 break;
             }
         };
-        if let Some(i) = values.iter().position(|x| !x.is_finite()) {
+        if let Some(i) = not_finite(&values) {
             let name = if values[i].is_nan() { "nan" } else { "infinite" };
             let finding = Finding::error(name, "an output is no finite number");
             let at = format!("{}, t = {} s", plan.name(i), plan.time(k + 1));

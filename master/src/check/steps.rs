@@ -1,5 +1,7 @@
 //! Step sizes as masters send them: with rounding noise, halved, next to nothing.
 
+use ttb_coupling::dense::not_finite;
+
 use super::drive::{Drive, open, reference};
 use super::finding::Finding;
 use super::worker::Context;
@@ -57,7 +59,7 @@ pub fn steps(context: &Context) -> Result<(), Finding> {
                 return Ok(());
             }
             Ok(values) => {
-                if let Some(i) = values.iter().position(|x| !x.is_finite()) {
+                if let Some(i) = not_finite(&values) {
                     context.find(finding.seen(format!("{} is {}", plan.name(i), values[i])));
                     return Ok(());
                 }
