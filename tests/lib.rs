@@ -4,9 +4,10 @@ use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
 use ttb_bridge::Bridge;
+use ttb_contract::{InProcess, Model};
 use ttb_coupling::iteration::IterationError;
 use ttb_coupling::run::{TimeAxis, run};
-use ttb_coupling::{Coupling, InProcess, Model, StepInfo, Work};
+use ttb_coupling::{Coupling, StepInfo, Work};
 use ttb_scenario::Checked;
 use ttb_scenario::spec::StructureSpec;
 use ttb_train_track::TrainTrack;
@@ -81,8 +82,8 @@ pub struct Pair {
     pub train_track: InProcess<TrainTrack>,
     /// The bridge subsystem.
     pub bridge: InProcess<Bridge>,
-    /// Number of coupled forces and motions.
-    pub coupled: (usize, usize),
+    /// Where they touch.
+    pub ports: ttb_contract::Ports,
     outputs: [(Vec<String>, Vec<u32>); 2],
 }
 
@@ -97,9 +98,10 @@ pub fn pair(checked: &Checked) -> Pair {
         let names = interface.outputs().map(|r| interface.variables()[r].name.clone());
         (names.collect(), interface.outputs().map(|r| r as u32).collect())
     });
-    let ttb_coupling::Pair { train_track, bridge, coupled } =
-        ttb_coupling::Pair::new(train_track, bridge, |force| checked.sent_force(force)).expect("initialization");
-    Pair { train_track, bridge, coupled, outputs }
+    let ttb_contract::Pair { train_track, bridge, ports } =
+        ttb_contract::Pair::new(train_track, bridge, checked.settings().force_scale, |force| checked.sent_force(force))
+            .expect("initialization");
+    Pair { train_track, bridge, ports, outputs }
 }
 
 /// The hybrid algorithm on the plain libraries; every output of both subsystems is kept.
@@ -107,8 +109,8 @@ pub fn pair(checked: &Checked) -> Pair {
 /// # Panics
 /// The run fails.
 pub fn library_run(checked: &Checked) -> Table {
-    let Pair { mut train_track, mut bridge, coupled, outputs } = pair(checked);
-    let mut coupling = Coupling::new(coupled.0, coupled.1, checked.settings());
+    let Pair { mut train_track, mut bridge, ports, outputs } = pair(checked);
+    let mut coupling = Coupling::new(ports.forces(), ports.motions(), checked.settings());
     coupling.initialise(&mut train_track, &mut bridge, 0.0).expect("static equilibrium");
     let names = outputs.iter().enumerate().flat_map(|(i, (names, _))| {
         // Motions of the supports stand on both sides; the bridge's are outputs, the other side's inputs.

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use ttb_bridge::Bridge;
-use ttb_coupling::Model;
+use ttb_contract::Model;
 use ttb_model_description::package::LIBRARY_EXTENSION;
 use ttb_model_description::{About, Contents, pack};
 use ttb_scenario::Checked;

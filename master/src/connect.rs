@@ -3,8 +3,9 @@
 use std::collections::{BTreeMap, HashMap};
 use std::path::Path;
 
+use ttb_contract::Subsystem;
 use ttb_coupling::probe::Probe;
-use ttb_coupling::{Adapted, Coupling, Joined, Settings, Subsystem};
+use ttb_coupling::{Adapted, Coupling, Joined, Settings};
 use ttb_fmi2::import::{Another, Fmu, FmuError, FmuInstance, FmuSubsystem};
 use ttb_fmi2::isolate::Isolation;
 use ttb_scenario::Checked;

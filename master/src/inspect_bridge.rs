@@ -9,7 +9,7 @@ use crate::error::Error;
 
 /// The command: of a scenario's bridge, or of a model file.
 pub fn inspect(file: &Path) -> Result<(), Error> {
-    let failed = |e: ttb_coupling::ModelError| Error::Input(e.to_string());
+    let failed = |e: ttb_contract::ModelError| Error::Input(e.to_string());
     let report = if is_model(file) {
         let model = ttb_scenario::model::load(file).map_err(Error::Scenario)?;
         of_model(&model, &[]).map_err(failed)?

@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use serde::Serialize;
-use ttb_coupling::work::WORK;
+use ttb_contract::names::WORK;
 
 use crate::auto::Choice;
 use crate::record::{Column, Recorder};

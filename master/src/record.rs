@@ -8,9 +8,11 @@ use std::path::{Path, PathBuf};
 
 use lexical_core::WriteFloatOptions;
 use lexical_core::format::STANDARD;
+use ttb_contract::names::parse_support;
+use ttb_contract::{Signal, Subsystem};
 use ttb_coupling::StepInfo;
 use ttb_coupling::iteration::Outcome;
-use ttb_fmi2::import::{FmuSubsystem, ModelDescription, VariableType};
+use ttb_fmi2::import::FmuSubsystem;
 
 use crate::connect::BridgeSide;
 use crate::error::Error;
@@ -51,8 +53,8 @@ pub struct Recorder {
     pub columns: Vec<Column>,
     /// Their present values.
     pub row: Vec<f64>,
-    /// Of the train–track FMU, then of every bridge.
-    references: Vec<Vec<u32>>,
+    /// How many of them are the train–track FMU's.
+    of_train_track: usize,
     results: Table,
     iterations: Table,
     every: u64,
@@ -69,24 +71,29 @@ impl Recorder {
         every: usize,
         last: u64,
     ) -> Result<Self, Error> {
-        let mut columns = Vec::new();
-        let mut references = vec![outputs(train_track.instance().description(), supports, &mut columns)];
-        let several = bridge.ranges().len() > 1;
-        for part in bridge.parts() {
-            let instance = part.inner().instance();
-            let known = columns.len();
-            references.push(outputs(instance.description(), supports, &mut columns));
-            // Several bridges may have outputs of one name; so may foreign FMUs on either side.
-            let (others, own) = columns.split_at_mut(known);
-            let taken: HashSet<&str> = others.iter().map(|c| c.name.as_str()).collect();
-            for column in own.iter_mut().filter(|c| several || taken.contains(c.name.as_str())) {
-                column.name = format!("{}.{}", instance.name(), column.name);
-            }
+        let wanted = |signal: &Signal| supports || parse_support(&signal.name).is_none();
+        let column = |Signal { name, unit }: Signal| Column { name, unit };
+        let mut columns: Vec<Column> = train_track.record(&wanted).into_iter().map(column).collect();
+        let of_train_track = columns.len();
+        columns.extend(bridge.record(&wanted).into_iter().map(column));
+        // Foreign FMUs on either side may have outputs of one name.
+        let (others, own) = columns.split_at_mut(of_train_track);
+        let taken: HashSet<&str> = others.iter().map(|c| c.name.as_str()).collect();
+        for column in own.iter_mut().filter(|c| taken.contains(c.name.as_str())) {
+            column.name = format!("{}.{}", bridge.name(), column.name);
         }
         let names = columns.iter().map(|c| c.name.as_str());
         let results = Table::create(&folder.join("results.csv"), std::iter::once("time").chain(names))?;
         let iterations = Table::create(&folder.join("iterations.csv"), ITERATIONS.into_iter())?;
-        Ok(Self { row: vec![0.0; columns.len()], columns, references, results, iterations, every: every as u64, last })
+        Ok(Self {
+            row: vec![0.0; columns.len()],
+            columns,
+            of_train_track,
+            results,
+            iterations,
+            every: every as u64,
+            last,
+        })
     }
 
     /// Reads all recorded variables after step `n`, which ended at `t`, and writes the row if it is due.
@@ -97,14 +104,9 @@ impl Recorder {
         n: u64,
         t: f64,
     ) -> Result<(), Error> {
-        let failed = |e: ttb_coupling::Failure| Error::Fmu(e.to_string());
-        let (first, mut rest) = self.row.split_at_mut(self.references[0].len());
-        train_track.read(&self.references[0], first).map_err(failed)?;
-        for (part, references) in bridge.parts().zip(&self.references[1..]) {
-            let (own, others) = rest.split_at_mut(references.len());
-            part.inner().read(references, own).map_err(failed)?;
-            rest = others;
-        }
+        let failed = |e: ttb_contract::Failure| Error::Fmu(e.to_string());
+        let (first, second) = self.row.split_at_mut(self.of_train_track);
+        train_track.read(first).and_then(|()| bridge.read(second)).map_err(failed)?;
         if n.is_multiple_of(self.every) || n == self.last {
             self.results.number(t);
             self.row.iter().for_each(|x| self.results.number(*x));
@@ -142,16 +144,6 @@ impl Recorder {
 }
 
 /// Real outputs of an FMU that are to be recorded; appends their columns.
-fn outputs(description: &ModelDescription, supports: bool, columns: &mut Vec<Column>) -> Vec<u32> {
-    let wanted = |name: &str| supports || !name.starts_with("support[");
-    let outputs = description.with_causality("output").filter(|v| v.kind == VariableType::Real && wanted(&v.name));
-    let add = |v: &ttb_fmi2::import::ScalarVariable| {
-        columns.push(Column { name: v.name.clone(), unit: v.unit.clone().unwrap_or_default() });
-        v.value_reference
-    };
-    outputs.map(add).collect()
-}
-
 /// A CSV file of numbers; rows are put together in one reused buffer.
 struct Table {
     path: PathBuf,

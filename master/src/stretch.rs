@@ -122,7 +122,7 @@ impl Side {
     }
 
     fn update(&mut self, fmu: &mut FmuSubsystem) -> Result<(), Error> {
-        fmu.read(&self.references, &mut self.row).map_err(|e| Error::Fmu(e.to_string()))?;
+        fmu.instance().get_real(&self.references, &mut self.row)?;
         for (seen, value) in self.seen.iter_mut().zip(&self.row) {
             let [low, high] = &mut seen.range;
             (*low, *high) = (low.min(*value), high.max(*value));

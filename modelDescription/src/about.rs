@@ -1,6 +1,6 @@
 //! What an FMU says of itself besides its interface list.
 
-use ttb_coupling::Model;
+use ttb_contract::Model;
 
 /// The log categories of the FMUs: name and meaning. The shell uses exactly these.
 pub const LOG_CATEGORIES: [(&str, &str); 3] = [

@@ -3,7 +3,7 @@
 use crate::about::About;
 use quick_xml::escape::escape;
 use std::fmt::Write;
-use ttb_coupling::{Causality, Interface, Kind, Variable};
+use ttb_contract::{Causality, Interface, Kind, Variable};
 
 const STYLE: &str = "body{font:16px/1.5 sans-serif;max-width:60em;margin:2em auto;padding:0 1em}\
     table{border-collapse:collapse}td,th{border:1px solid #bbb;padding:.2em .6em;text-align:left}code{font-size:.95em}";

@@ -1,7 +1,7 @@
 //! The GUID: a fingerprint of an interface, the same in the XML and in the binary.
 
 use sha2::{Digest, Sha256};
-use ttb_coupling::Interface;
+use ttb_contract::Interface;
 
 /// GUID `{8-4-4-4-12}` of an interface: the SHA-256 of its canonical text, cut to a version-8 UUID.
 ///
@@ -29,7 +29,7 @@ fn canonical_text(model_identifier: &str, interface: &Interface) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use ttb_coupling::Variable;
+    use ttb_contract::Variable;
 
     fn interface(unit: &'static str, start: f64) -> Interface {
         let input = Variable::input("support[1].force", unit, "any text");

@@ -6,7 +6,7 @@ use crate::xml::{XmlError, xml};
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
-use ttb_coupling::Interface;
+use ttb_contract::Interface;
 use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, DateTime, ZipWriter};
 

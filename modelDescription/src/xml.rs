@@ -12,7 +12,7 @@ use crate::units;
 use quick_xml::Writer;
 use quick_xml::events::{BytesDecl, Event};
 use std::io;
-use ttb_coupling::{Causality, Interface, Kind, Variable};
+use ttb_contract::{Causality, Interface, Kind, Variable};
 
 /// Why an interface cannot be described.
 #[derive(Debug, thiserror::Error)]

@@ -4,7 +4,7 @@
 //! After an intended change: `UPDATE_GOLDEN=1 cargo test -p ttb-model-description`, then read the difference.
 
 use std::path::Path;
-use ttb_coupling::{Interface, Kind, Variable};
+use ttb_contract::{Interface, Kind, Variable};
 use ttb_model_description::{About, Contents, XmlError, pack, xml};
 
 const CHOICES: Kind = Kind::Enumeration(&[("Held", "inputs are held"), ("Line", "inputs run along a line")]);

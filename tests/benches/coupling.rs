@@ -48,8 +48,8 @@ fn main() {
 
 fn describe(checked: &Checked, settings: Settings) -> String {
     let axis = TimeAxis::new(checked.train_track.step, checked.train_track.end);
-    let Pair { mut train_track, mut bridge, coupled, .. } = pair(checked);
-    let mut coupling = Coupling::new(coupled.0, coupled.1, settings);
+    let Pair { mut train_track, mut bridge, ports, .. } = pair(checked);
+    let mut coupling = Coupling::new(ports.forces(), ports.motions(), settings);
     coupling.initialise(&mut train_track, &mut bridge, 0.0).expect("static equilibrium");
     let (mut trials, mut alone, mut most, mut rescues) = (0, 0, 0, 0);
     let begin = Instant::now();

@@ -5,9 +5,10 @@ use std::cell::Cell;
 use std::ops::ControlFlow;
 use std::time::Instant;
 
+use ttb_contract::{Failure, Subsystem};
+use ttb_coupling::Coupling;
 use ttb_coupling::iteration::IterationError;
 use ttb_coupling::run::{TimeAxis, run};
-use ttb_coupling::{Coupling, Failure, Subsystem};
 use ttb_scenario::step::Steps;
 use ttb_tests::{Pair, example, pair};
 
@@ -29,10 +30,10 @@ fn cost(name: &str, steps: Steps) -> [f64; 2] {
     let mut checked = example(name);
     checked.set_steps(steps);
     let spent = [const { Cell::new(0.0) }; 2];
-    let Pair { train_track, bridge, coupled, .. } = pair(&checked);
+    let Pair { train_track, bridge, ports, .. } = pair(&checked);
     let mut train_track = Timed { inside: train_track, spent: &spent[0] };
     let mut bridge = Timed { inside: bridge, spent: &spent[1] };
-    let mut coupling = Coupling::new(coupled.0, coupled.1, checked.settings());
+    let mut coupling = Coupling::new(ports.forces(), ports.motions(), checked.settings());
     coupling.initialise(&mut train_track, &mut bridge, 0.0).expect("static equilibrium");
     spent.iter().for_each(|spent| spent.set(0.0));
     let mut trials = 0;
@@ -67,6 +68,9 @@ impl<S> Timed<'_, S> {
 }
 
 impl<S: Subsystem> Subsystem for Timed<'_, S> {
+    fn name(&self) -> &str {
+        self.inside.name()
+    }
     fn set_inputs(&mut self, values: &[f64], rates: Option<&[f64]>) -> Result<(), Failure> {
         self.time(|s| s.set_inputs(values, rates))
     }

@@ -20,8 +20,8 @@ fn main() {
         let (mut start, mut iterations) = (0.0, 0);
         for _ in 0..3 {
             let begin = Instant::now();
-            let Pair { mut train_track, mut bridge, coupled, .. } = pair(&checked);
-            let mut coupling = Coupling::new(coupled.0, coupled.1, checked.settings());
+            let Pair { mut train_track, mut bridge, ports, .. } = pair(&checked);
+            let mut coupling = Coupling::new(ports.forces(), ports.motions(), checked.settings());
             coupling.initialise(&mut train_track, &mut bridge, 0.0).expect("static equilibrium");
             start = begin.elapsed().as_secs_f64();
             let begin = Instant::now();

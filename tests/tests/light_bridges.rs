@@ -2,10 +2,11 @@
 
 use std::ops::ControlFlow;
 
+use ttb_contract::{Failure, Subsystem};
 use ttb_coupling::iteration::IterationError;
 use ttb_coupling::report::Source;
 use ttb_coupling::run::{TimeAxis, run};
-use ttb_coupling::{Coupling, Failure, Method, Report, Settings, Subsystem};
+use ttb_coupling::{Coupling, Method, Report, Settings};
 use ttb_scenario::Checked;
 use ttb_tests::{Pair, library_run, pair, r1_with};
 

@@ -3,9 +3,10 @@
 use std::ops::ControlFlow;
 use std::process::Command;
 
+use ttb_contract::{Failure, Subsystem};
 use ttb_coupling::iteration::IterationError;
 use ttb_coupling::run::{TimeAxis, run};
-use ttb_coupling::{Coupling, Failure, OnFailure, Settings, Subsystem};
+use ttb_coupling::{Coupling, OnFailure, Settings};
 use ttb_scenario::Checked;
 use ttb_scenario::step::Steps;
 use ttb_scenario::types::{Method, RailPoint};
@@ -92,6 +93,9 @@ impl Oscillator {
 }
 
 impl Subsystem for Oscillator {
+    fn name(&self) -> &str {
+        "oscillator"
+    }
     fn set_inputs(&mut self, values: &[f64], rates: Option<&[f64]>) -> Result<(), Failure> {
         assert!(rates.is_none());
         self.force = values.iter().sum();

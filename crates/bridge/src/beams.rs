@@ -3,7 +3,7 @@
 //! Each simply supported span has nodes of its own, so that neighbours share no rotation; a continuous beam has one node
 //! over each inner bearing. Beams move only down: the axial direction is fixed everywhere.
 
-use ttb_coupling::ModelError;
+use ttb_contract::ModelError;
 use ttb_dynamics::beam::Beam;
 use ttb_dynamics::frame::FrameElement;
 use ttb_scenario::types::Span;

@@ -6,7 +6,7 @@
 //!
 //! The same weights interpolate motions and distribute forces, so Σ F u̇ is the power that enters the structure.
 
-use ttb_coupling::ModelError;
+use ttb_contract::ModelError;
 use ttb_dynamics::frame::Row6;
 
 use crate::mesh::Mesh;

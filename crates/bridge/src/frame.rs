@@ -3,7 +3,7 @@
 //! Beams are divided into equal elements; trusses and cables are one element each, cables with Ernst's equivalent
 //! modulus. A Timoshenko section turns with ρI = m I/A, which takes dead loads as spread like the section itself.
 
-use ttb_coupling::ModelError;
+use ttb_contract::ModelError;
 use ttb_dynamics::beam::Beam;
 use ttb_dynamics::frame::{FrameElement, ernst_modulus};
 use ttb_scenario::types::{Fixity, Frame, Member, MemberKind, Section};

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use ttb_coupling::ModelError;
+use ttb_contract::ModelError;
 use ttb_dynamics::sparse::Assembly;
 use ttb_import::{Dofs, Files, Imported, Row};
 

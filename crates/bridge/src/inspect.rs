@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use ttb_coupling::ModelError;
+use ttb_contract::ModelError;
 use ttb_dynamics::factor::{Factor, FactorError, Layout};
 use ttb_dynamics::modes::lowest;
 use ttb_dynamics::sparse::Pencil;

@@ -1,6 +1,6 @@
 //! The bridge's interface list: names and order are the contract with the train–track side and with every master.
 
-use ttb_coupling::{Interface, Variable};
+use ttb_contract::{Interface, Variable};
 use ttb_scenario::spec::BridgeSpec;
 
 use crate::structure::Structure;

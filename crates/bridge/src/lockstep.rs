@@ -10,7 +10,7 @@
 //! elimination, in groups of [`LANES`] runs, number i of all of a group side by side. Rayleigh damping or none
 //! ([`crate::full`] has the equations).
 
-use ttb_coupling::ModelError;
+use ttb_contract::ModelError;
 use ttb_dynamics::dense::Dense;
 use ttb_dynamics::factor::Factor;
 use ttb_dynamics::newmark::Newmark;

@@ -12,7 +12,7 @@
 
 use std::sync::Arc;
 
-use ttb_coupling::ModelError;
+use ttb_contract::ModelError;
 use ttb_dynamics::newmark::Motion;
 use ttb_dynamics::pool::Pool;
 

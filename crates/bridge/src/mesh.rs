@@ -3,7 +3,7 @@
 //! A node moves by [u_x, u_z, θ]. A direction is a degree of freedom when it is not fixed and some element resists it:
 //! a node that only trusses and hinges meet has no rotation.
 
-use ttb_coupling::ModelError;
+use ttb_contract::ModelError;
 use ttb_dynamics::frame::FrameElement;
 use ttb_dynamics::sparse::Assembly;
 

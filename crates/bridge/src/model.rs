@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use ttb_coupling::{Interface, Model, ModelError, Values};
+use ttb_contract::{Interface, Model, ModelError, Values};
 use ttb_dynamics::newmark::Motion;
 use ttb_dynamics::pool::Pool;
 use ttb_scenario::spec::{BridgeSpec, StructureSpec};

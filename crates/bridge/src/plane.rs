@@ -1,6 +1,6 @@
 //! Spans of beams and plane frames: from the specification to equations and rows.
 
-use ttb_coupling::ModelError;
+use ttb_contract::ModelError;
 use ttb_scenario::spec::{BridgeSpec, StructureSpec};
 use ttb_scenario::types::{Direction, Point};
 

@@ -12,7 +12,7 @@
 use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
-use ttb_coupling::ModelError;
+use ttb_contract::ModelError;
 use ttb_dynamics::factor::{Factor, FactorError};
 use ttb_dynamics::krylov::Krylov;
 use ttb_dynamics::newmark::{Motion, Newmark};

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use ttb_coupling::ModelError;
+use ttb_contract::ModelError;
 use ttb_dynamics::newmark::Motion;
 
 use crate::system::{Base, Step, Work};

@@ -5,7 +5,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
-use ttb_coupling::ModelError;
+use ttb_contract::ModelError;
 use ttb_dynamics::dense::Dense;
 use ttb_dynamics::modes::Modes;
 use ttb_dynamics::sparse::{Pencil, Raw};

@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use ttb_coupling::ModelError;
+use ttb_contract::ModelError;
 use ttb_dynamics::damping::rayleigh;
 use ttb_dynamics::factor::{Factor, FactorError, Layout};
 use ttb_dynamics::modes::{Modes, lowest};

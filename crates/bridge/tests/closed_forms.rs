@@ -7,7 +7,7 @@ use std::f64::consts::{PI, TAU};
 use common::{beams, bridge, drive, find, frame, get, point, span};
 use ttb_bridge::Bridge;
 use ttb_bridge::mesh::Mesh;
-use ttb_coupling::Instance;
+use ttb_contract::Instance;
 use ttb_dynamics::frame::ernst_modulus;
 use ttb_dynamics::modes::lowest;
 use ttb_record::Table;

@@ -11,7 +11,7 @@ use ttb_bridge::lockstep::{Lockstep, RUNS};
 use ttb_bridge::rows::Rows;
 use ttb_bridge::space;
 use ttb_bridge::system::{Base, Law, System, Work};
-use ttb_coupling::{Instance, Model};
+use ttb_contract::{Instance, Model};
 use ttb_dynamics::factor::Layout;
 use ttb_dynamics::newmark::{Motion, Newmark};
 use ttb_dynamics::sparse::Pencil;

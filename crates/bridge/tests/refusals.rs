@@ -4,7 +4,7 @@ mod common;
 
 use common::{beams, bridge, frame, point, set, span};
 use ttb_bridge::Bridge;
-use ttb_coupling::{Instance, Model};
+use ttb_contract::{Instance, Model};
 use ttb_scenario::spec::{BridgeSpec, StructureSpec};
 use ttb_scenario::types::Fixity::{X, Z};
 use ttb_scenario::types::MemberKind::{Beam, Cable, Truss};

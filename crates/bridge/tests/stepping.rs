@@ -4,7 +4,7 @@ mod common;
 
 use common::{beams, drive, find, get, near, outputs, set, span, stepping};
 use ttb_bridge::Bridge;
-use ttb_coupling::Instance;
+use ttb_contract::Instance;
 use ttb_scenario::spec::BridgeSpec;
 use ttb_scenario::types::{Damping, Newmark, RayleighAt};
 

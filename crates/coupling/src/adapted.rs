@@ -11,7 +11,7 @@
 //! supports ([`Stations`]). Where neither is needed everything passes as it is.
 
 use crate::stations::Stations;
-use crate::subsystem::{Failure, Subsystem};
+use ttb_contract::{Failure, Signal, Subsystem};
 
 /// A subsystem, its stations, its missing velocities.
 pub struct Adapted<S> {
@@ -117,6 +117,14 @@ impl<S: Subsystem> Subsystem for Adapted<S> {
         got
     }
 
+    fn output_name(&self, index: usize) -> String {
+        let half = self.motion.len() / 2;
+        match &self.stations {
+            None => self.inner.output_name(if self.differences.is_some() { index % half } else { index }),
+            Some(stations) => format!("motion of the deck at support {}", index % stations.supports() + 1),
+        }
+    }
+
     fn exit_initialization(&mut self) -> Result<(), Failure> {
         self.inner.exit_initialization()?;
         if let Some(differences) = &mut self.differences {
@@ -159,7 +167,7 @@ impl<S: Subsystem> Subsystem for Adapted<S> {
         self.inner.can_roll_back()
     }
 
-    fn understudy(&mut self, inputs: &[f64]) -> Result<Option<Box<dyn Subsystem>>, Failure> {
+    fn trial_instance(&mut self, inputs: &[f64]) -> Result<Option<Box<dyn Subsystem>>, Failure> {
         let own = match &self.stations {
             None => inputs,
             Some(stations) => {
@@ -167,7 +175,7 @@ impl<S: Subsystem> Subsystem for Adapted<S> {
                 &self.forces
             }
         };
-        let Some(inner) = self.inner.understudy(own)? else { return Ok(None) };
+        let Some(inner) = self.inner.trial_instance(own)? else { return Ok(None) };
         let mut adapted = Adapted {
             inner,
             stations: self.stations.clone(),
@@ -209,5 +217,18 @@ impl<S: Subsystem> Subsystem for Adapted<S> {
             Self::to_supports(stations, &self.motion, change);
         }
         Ok(())
+    }
+
+    fn record(&mut self, wanted: &dyn Fn(&Signal) -> bool) -> Vec<Signal> {
+        self.inner.record(wanted)
+    }
+    fn read(&mut self, row: &mut [f64]) -> Result<(), Failure> {
+        self.inner.read(row)
+    }
+    fn name(&self) -> &str {
+        self.inner.name()
+    }
+    fn seconds(&self) -> f64 {
+        self.inner.seconds()
     }
 }

@@ -11,7 +11,7 @@
 use crate::dense::{each, not_finite};
 use crate::report::{IterationError, Side};
 use crate::settings::Settings;
-use crate::subsystem::{Failure, Subsystem};
+use ttb_contract::{Failure, Subsystem};
 
 /// Both subsystems and the step [t, t + h] they are asked for.
 pub(crate) struct Sides<'a> {
@@ -79,7 +79,7 @@ impl Exchange {
         self.announce(sides, now, lambda)?;
         sides.bridge.step(sides.t, sides.h, back)?;
         sides.bridge.get_outputs(&mut self.motion)?;
-        check(&self.motion, Side::Bridge, sides.t)
+        check(&self.motion, Side::Bridge, sides.bridge, sides.t + sides.h)
     }
 
     /// Sets the bridge's forces for a step that is not taken (yet).
@@ -97,7 +97,7 @@ impl Exchange {
         send(sides.train_track, &self.now, &self.motion, sides.h, interpolate, &mut self.sent_motion)?;
         sides.train_track.step(sides.t, sides.h, back)?;
         sides.train_track.get_outputs(answer)?;
-        check(answer, Side::TrainTrack, sides.t)
+        check(answer, Side::TrainTrack, sides.train_track, sides.t + sides.h)
     }
 
     /// λ → G(λ), from the saved states.
@@ -118,10 +118,10 @@ impl Exchange {
     pub fn equilibrium(&mut self, sides: &mut Sides, lambda: &[f64], answer: &mut [f64]) -> Result<(), IterationError> {
         sides.bridge.set_inputs(lambda, None)?;
         sides.bridge.get_outputs(&mut self.motion)?;
-        check(&self.motion, Side::Bridge, sides.t)?;
+        check(&self.motion, Side::Bridge, sides.bridge, sides.t + sides.h)?;
         sides.train_track.set_inputs(&self.motion, None)?;
         sides.train_track.get_outputs(answer)?;
-        check(answer, Side::TrainTrack, sides.t)
+        check(answer, Side::TrainTrack, sides.train_track, sides.t + sides.h)
     }
 
     /// The trial is accepted.
@@ -130,12 +130,11 @@ impl Exchange {
     }
 }
 
-/// Refuses NaN and infinity where they appear: one of them poisons everything it meets.
-fn check(values: &[f64], side: Side, t: f64) -> Result<(), IterationError> {
-    match not_finite(values) {
-        None => Ok(()),
-        Some(index) => Err(IterationError::NotFinite { t, side, index, value: values[index] }),
-    }
+/// Refuses NaN and infinity where they appear: one of them spoils everything it meets. `t` is the time they belong to.
+fn check(values: &[f64], side: Side, from: &dyn Subsystem, t: f64) -> Result<(), IterationError> {
+    let Some(index) = not_finite(values) else { return Ok(()) };
+    let (subsystem, output) = (from.name().to_string(), from.output_name(index));
+    Err(IterationError::NotFinite { t, side, subsystem, output, value: values[index] })
 }
 
 /// Sends a straight line from `from` to `to` over a step of `h`: as value and rate, or as the held mean.

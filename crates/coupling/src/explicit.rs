@@ -113,7 +113,7 @@ impl Coupling {
         }
     }
 
-    /// ρ as in [`Coupling::contraction`], without a step of the bridge: by its directional derivatives or by understudies,
+    /// ρ as in [`Coupling::contraction`], without a step of the bridge: by its directional derivatives or by trial instances,
     /// and the train–track subsystem's trials. None if it has neither, or refuses them before its first step.
     fn contraction_apart(&mut self, sides: &mut Sides) -> Result<Option<f64>, IterationError> {
         let n = self.lambda.len();
@@ -154,7 +154,7 @@ impl Coupling {
         Ok(rho)
     }
 
-    /// What a change of the forces changes of the motion after a step, seen on understudies; `at_rest` keeps the motion
+    /// What a change of the forces changes of the motion after a step, seen on trial instances; `at_rest` keeps the motion
     /// without it.
     fn change_apart(
         &mut self,
@@ -171,10 +171,10 @@ impl Coupling {
         Ok(true)
     }
 
-    /// The motion after a step of an understudy under the forces at hand and `force`.
+    /// The motion after a step of an trial_instance under the forces at hand and `force`.
     fn step_apart(&mut self, sides: &mut Sides, force: &[f64]) -> Result<Option<Vec<f64>>, IterationError> {
         let now = self.forces.now();
-        let Some(mut bridge) = sides.bridge.understudy(now)? else { return Ok(None) };
+        let Some(mut bridge) = sides.bridge.trial_instance(now)? else { return Ok(None) };
         let after: Vec<f64> = now.iter().zip(force).map(|(now, force)| now + force).collect();
         let (train_track, bridge, t, h) = (&mut *sides.train_track, &mut *bridge, sides.t, sides.h);
         self.exchange.bridge(&mut Sides { train_track, bridge, t, h }, now, &after, false)?;

@@ -24,9 +24,9 @@ pub use crate::report::{IterationError, Outcome, Report, StepInfo};
 use crate::settings::Method;
 pub use crate::settings::{OnFailure, Settings};
 use crate::strategy::Strategy;
-use crate::subsystem::Subsystem;
 use crate::trials::Mode;
 use crate::work::{self, Displacements, Work};
+use ttb_contract::Subsystem;
 
 /// Halvings of a step at most, under [`OnFailure::Halve`].
 const HALVINGS: usize = 4;

@@ -2,12 +2,14 @@
 
 use std::ops::Range;
 
-use crate::subsystem::{Failure, Subsystem};
+use ttb_contract::{Failure, Signal, Subsystem};
 
 /// Bridges in track order. Forces of all come one after the other; so do displacements, then velocities.
 pub struct Joined<S> {
     parts: Vec<Part<S>>,
     supports: usize,
+    /// Names of all, joined by a plus.
+    name: String,
 }
 
 /// A bridge and its supports.
@@ -16,6 +18,8 @@ struct Part<S> {
     supports: Range<usize>,
     /// (d, ḋ) of its supports.
     motion: Vec<f64>,
+    /// Outputs that are recorded.
+    recorded: usize,
 }
 
 impl<S: Subsystem> Joined<S> {
@@ -25,10 +29,11 @@ impl<S: Subsystem> Joined<S> {
         let part = |(bridge, count): (S, usize)| {
             let from = supports;
             supports += count;
-            Part { bridge, supports: from..supports, motion: vec![0.0; 2 * count] }
+            Part { bridge, supports: from..supports, motion: vec![0.0; 2 * count], recorded: 0 }
         };
-        let parts = bridges.into_iter().map(part).collect();
-        Self { parts, supports }
+        let parts: Vec<Part<S>> = bridges.into_iter().map(part).collect();
+        let names: Vec<&str> = parts.iter().map(|part| part.bridge.name()).collect();
+        Self { name: names.join(" + "), parts, supports }
     }
 
     /// The bridges.
@@ -77,6 +82,13 @@ impl<S: Subsystem> Subsystem for Joined<S> {
         Ok(())
     }
 
+    fn output_name(&self, index: usize) -> String {
+        let support = index % self.supports.max(1);
+        let Some(part) = self.parts.iter().find(|part| part.supports.contains(&support)) else { return String::new() };
+        let own = support - part.supports.start;
+        part.bridge.output_name(if index < self.supports { own } else { part.supports.len() + own })
+    }
+
     fn exit_initialization(&mut self) -> Result<(), Failure> {
         self.each(S::exit_initialization)
     }
@@ -96,10 +108,10 @@ impl<S: Subsystem> Subsystem for Joined<S> {
         self.all(S::can_roll_back)
     }
 
-    fn understudy(&mut self, inputs: &[f64]) -> Result<Option<Box<dyn Subsystem>>, Failure> {
+    fn trial_instance(&mut self, inputs: &[f64]) -> Result<Option<Box<dyn Subsystem>>, Failure> {
         let mut others = Vec::new();
         for part in &mut self.parts {
-            let Some(other) = part.bridge.understudy(&inputs[part.supports.clone()])? else { return Ok(None) };
+            let Some(other) = part.bridge.trial_instance(&inputs[part.supports.clone()])? else { return Ok(None) };
             others.push((other, part.supports.len()));
         }
         Ok(Some(Box::new(Joined::new(others))))
@@ -118,5 +130,34 @@ impl<S: Subsystem> Subsystem for Joined<S> {
             .try_for_each(|part| part.bridge.derivative(&seed[part.supports.clone()], &mut part.motion))?;
         self.scatter(change);
         Ok(())
+    }
+
+    /// Of several bridges every name begins with that of the bridge.
+    fn record(&mut self, wanted: &dyn Fn(&Signal) -> bool) -> Vec<Signal> {
+        let several = self.parts.len() > 1;
+        let mut all = Vec::new();
+        for part in &mut self.parts {
+            let mut own = part.bridge.record(wanted);
+            part.recorded = own.len();
+            let name = part.bridge.name();
+            own.iter_mut().filter(|_| several).for_each(|signal| signal.name = format!("{name}.{}", signal.name));
+            all.extend(own);
+        }
+        all
+    }
+    fn read(&mut self, row: &mut [f64]) -> Result<(), Failure> {
+        let mut rest = row;
+        for part in &mut self.parts {
+            let (own, others) = rest.split_at_mut(part.recorded);
+            part.bridge.read(own)?;
+            rest = others;
+        }
+        Ok(())
+    }
+    fn name(&self) -> &str {
+        &self.name
+    }
+    fn seconds(&self) -> f64 {
+        self.parts.iter().map(|part| part.bridge.seconds()).sum()
     }
 }

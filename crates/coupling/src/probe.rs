@@ -23,8 +23,8 @@ use crate::identify::shape;
 use crate::iteration::Coupling;
 use crate::report::{IterationError, Side};
 use crate::run::TimeAxis;
-use crate::subsystem::Subsystem;
 use crate::verdict::Response;
+use ttb_contract::Subsystem;
 
 /// Steps of a run.
 const STEPS: usize = 4;
@@ -139,7 +139,7 @@ impl Coupling {
         if sides.bridge.can_roll_back() {
             sides.bridge.restore()?;
         } else {
-            another = sides.bridge.understudy(&now)?;
+            another = sides.bridge.trial_instance(&now)?;
             if another.is_none() {
                 return Ok(None);
             }

@@ -1,8 +1,8 @@
 //! How a step went: the row of the iteration log, or why the run cannot go on.
 
 use crate::settings::Method;
-use crate::subsystem::Failure;
 use crate::work::Work;
+use ttb_contract::Failure;
 
 /// How a step ended.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -114,12 +114,14 @@ pub enum IterationError {
     },
     /// A subsystem answered NaN or infinity.
     NotFinite {
-        /// Begin of the step, s.
+        /// When, s: the end of the step.
         t: f64,
-        /// Which.
+        /// Which side.
         side: Side,
-        /// Position among its coupled outputs, from 0.
-        index: usize,
+        /// Name of the subsystem.
+        subsystem: String,
+        /// Name of its output.
+        output: String,
         /// What it answered.
         value: f64,
     },
@@ -170,11 +172,9 @@ impl std::fmt::Display for IterationError {
                 "{side} does not come back to the state it saved: the step from t = {t} s, repeated, differs by {difference:.1e} \
                  of its change, so that no iteration can be trusted"
             ),
-            Self::NotFinite { t, side, index, value } => write!(
-                f,
-                "{side} answered {value} in the step from t = {t} s, as its coupled output number {}",
-                index + 1
-            ),
+            Self::NotFinite { t, subsystem, output, value, .. } => {
+                write!(f, "{subsystem}: output {output} is {value} at t = {t} s")
+            }
         }
     }
 }

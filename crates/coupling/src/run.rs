@@ -3,7 +3,7 @@
 use std::ops::ControlFlow;
 
 use crate::iteration::{Coupling, IterationError, StepInfo};
-use crate::subsystem::Subsystem;
+use ttb_contract::Subsystem;
 
 /// Equal macro steps from 0 to the end; the last one is shortened to hit it.
 #[derive(Clone, Copy, Debug, PartialEq)]

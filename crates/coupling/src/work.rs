@@ -18,9 +18,6 @@ use std::ops::AddAssign;
 
 use crate::dense::{each, sum};
 
-/// Name of the output by which a train–track subsystem says W_T, J.
-pub const WORK: &str = "deck_work";
-
 /// Work over a step or a run, J.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Work {

@@ -1,9 +1,10 @@
 //! The iteration on two scalar subsystems with known answers.
 
+use ttb_contract::{Failure, Subsystem};
 use ttb_coupling::iteration::{IterationError, OnFailure, Outcome, Settings};
 use ttb_coupling::predictor::Predictor;
 use ttb_coupling::report::Side;
-use ttb_coupling::{Coupling, Failure, Method, Subsystem};
+use ttb_coupling::{Coupling, Method};
 
 /// Answers `constant(t) + gain · (input at the end of the step)`; counts what it was asked.
 struct Line {
@@ -53,6 +54,9 @@ impl Subsystem for Line {
         self.roll_backs += 1;
         self.output = self.saved;
         Ok(())
+    }
+    fn name(&self) -> &str {
+        "line"
     }
     fn can_interpolate(&self) -> bool {
         self.interpolates
@@ -160,7 +164,7 @@ fn a_force_that_is_no_number_stops_the_run_at_its_step() {
     coupling.initialise(&mut train_track, &mut bridge, 0.0).unwrap();
     coupling.step(&mut train_track, &mut bridge, 0.0, 0.5).unwrap();
     let stopped = coupling.step(&mut train_track, &mut bridge, 0.5, 0.5);
-    let Err(IterationError::NotFinite { t, side, index, value }) = stopped else { panic!("{stopped:?}") };
-    assert_eq!((t, side, index), (0.5, Side::TrainTrack, 0));
+    let Err(IterationError::NotFinite { t, side, output, value, .. }) = stopped else { panic!("{stopped:?}") };
+    assert_eq!((t, side, output.as_str()), (1.0, Side::TrainTrack, "coupled output number 1"));
     assert!(value.is_nan());
 }

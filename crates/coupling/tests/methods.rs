@@ -111,7 +111,7 @@ fn a_fixed_point_that_diverges_stops_with_its_contraction_and_a_way_out() {
 }
 
 #[test]
-fn infinity_is_caught_at_its_step_with_subsystem_and_index() {
+fn infinity_is_caught_at_its_step_with_subsystem_and_output() {
     let (mut train_track, mut bridge) = pair(0.1, 0.0);
     bridge.infinite_from = 0.045;
     let mut coupling = Coupling::new(N, 2 * N, settings(Method::Auto));
@@ -120,8 +120,9 @@ fn infinity_is_caught_at_its_step_with_subsystem_and_index() {
         coupling.step(&mut train_track, &mut bridge, f64::from(n) * H, H).expect("a step");
     }
     let stopped = coupling.step(&mut train_track, &mut bridge, 4.0 * H, H);
-    let value = f64::INFINITY;
-    assert_eq!(stopped, Err(IterationError::NotFinite { t: 4.0 * H, side: Side::Bridge, index: 3, value }));
+    let Err(IterationError::NotFinite { t, side, output, value, .. }) = stopped else { panic!("{stopped:?}") };
+    assert_eq!((t, side, value), (5.0 * H, Side::Bridge, f64::INFINITY));
+    assert_eq!(output, "coupled output number 4");
 }
 
 #[test]

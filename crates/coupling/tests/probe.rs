@@ -1,12 +1,13 @@
 //! Trial steps before the run, and audits in its course, on free masses with known answers.
 
+use ttb_contract::{Failure, Subsystem};
 use ttb_coupling::iteration::{IterationError, OnFailure};
 use ttb_coupling::predictor::Predictor;
 use ttb_coupling::probe::is_lie;
 use ttb_coupling::report::Side;
 use ttb_coupling::run::{TimeAxis, run};
 use ttb_coupling::verdict::Verdict;
-use ttb_coupling::{Coupling, Failure, Method, Settings, StepInfo, Subsystem};
+use ttb_coupling::{Coupling, Method, Settings, StepInfo};
 
 const N: usize = 4;
 const MASS: f64 = 6e3;
@@ -45,6 +46,9 @@ fn masses(deck: bool) -> Masses {
 }
 
 impl Subsystem for Masses {
+    fn name(&self) -> &str {
+        "masses"
+    }
     fn set_inputs(&mut self, values: &[f64], rates: Option<&[f64]>) -> Result<(), Failure> {
         self.input.copy_from_slice(values);
         self.rate.fill(0.0);
@@ -98,7 +102,7 @@ impl Subsystem for Masses {
     fn can_roll_back(&self) -> bool {
         self.rolls_back
     }
-    fn understudy(&mut self, inputs: &[f64]) -> Result<Option<Box<dyn Subsystem>>, Failure> {
+    fn trial_instance(&mut self, inputs: &[f64]) -> Result<Option<Box<dyn Subsystem>>, Failure> {
         let mut another = masses(true);
         (another.factors, another.rolls_back) = (self.factors, false);
         another.set_inputs(inputs, None)?;

@@ -7,7 +7,7 @@ mod foreign;
 use counting::allocations;
 use foreign::*;
 use std::time::Instant;
-use ttb_coupling::Subsystem;
+use ttb_contract::Subsystem;
 use ttb_fmi2::import::{Fmu, FmuSubsystem};
 use ttb_model_description::package::{LIBRARY_EXTENSION, PLATFORM};
 

@@ -10,7 +10,7 @@ mod oscillator;
 use foreign::*;
 use oscillator::{Oscillator, vr};
 use std::path::Path;
-use ttb_coupling::{InProcess, Instance, Model, Subsystem};
+use ttb_contract::{InProcess, Instance, Model, Subsystem};
 use ttb_fmi2::import::{Fmu, FmuInstance, FmuSubsystem};
 use ttb_model_description::{About, Contents, pack};
 

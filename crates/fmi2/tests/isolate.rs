@@ -7,7 +7,7 @@ use foreign::*;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
-use ttb_coupling::Subsystem;
+use ttb_contract::Subsystem;
 use ttb_fmi2::import::{Fmu, FmuError, FmuInstance, FmuSubsystem};
 use ttb_fmi2::isolate::Isolation;
 

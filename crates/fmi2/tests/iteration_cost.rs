@@ -4,9 +4,10 @@ mod counting;
 
 use counting::allocations;
 use std::time::Instant;
+use ttb_contract::{Failure, Subsystem};
 use ttb_coupling::iteration::{OnFailure, Settings};
 use ttb_coupling::predictor::Predictor;
-use ttb_coupling::{Adapted, Coupling, Failure, Joined, Method, Shape, Stations, Subsystem};
+use ttb_coupling::{Adapted, Coupling, Joined, Method, Shape, Stations};
 
 /// Answers `constant + gain · (input at the end of the step)`, each output to the input of its number.
 struct Line {
@@ -25,6 +26,9 @@ impl Line {
 }
 
 impl Subsystem for Line {
+    fn name(&self) -> &str {
+        "line"
+    }
     fn set_inputs(&mut self, values: &[f64], rates: Option<&[f64]>) -> Result<(), Failure> {
         self.input.copy_from_slice(values);
         match rates {

@@ -9,7 +9,7 @@ use ttb_bridge::assembled::Assembled;
 use ttb_bridge::deck::Row;
 use ttb_bridge::system::Law;
 use ttb_bridge::{imported, plane, space, structure};
-use ttb_coupling::Instance;
+use ttb_contract::Instance;
 use ttb_dynamics::factor::Layout;
 use ttb_dynamics::modes::lowest;
 use ttb_dynamics::newmark::Motion;
@@ -163,7 +163,7 @@ impl Whole {
         instance.enter_initialization(0.0).map_err(case)?;
         instance.set(&inputs, &motion).map_err(case)?;
         instance.exit_initialization().map_err(case)?;
-        let state = ttb_coupling::Model::save(instance.model());
+        let state = ttb_contract::Model::save(instance.model());
         self.start.track = state.track.clone();
         self.start.cars = state.cars.clone();
         self.start.bridge.u = u.split_off(n);

@@ -4,7 +4,7 @@
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-use ttb_coupling::{Instance, Model};
+use ttb_contract::{Instance, Model};
 use ttb_train_track::TrainTrack;
 
 /// Steps that are timed, each with a first trial and a repeated one; best of some rounds, other work shares the machine.

@@ -1,7 +1,7 @@
 //! The train–track subsystem: cars, rail, supports, contact, irregularity, strongly coupled.
 //!
 //! Start with [`coupled`]: the time-dependent system block by block. [`TrainTrack`] puts it behind the project's
-//! [`ttb_coupling::Model`] trait; [`variables`] is its interface list.
+//! [`ttb_contract::Model`] trait; [`variables`] is its interface list.
 
 pub mod car;
 pub mod compliance;

@@ -4,7 +4,7 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use ttb_coupling::{Interface, Model, ModelError, Values};
+use ttb_contract::{Interface, Model, ModelError, Values};
 use ttb_dynamics::band::BandFactor;
 use ttb_dynamics::newmark::Newmark;
 use ttb_dynamics::pool::Pool;

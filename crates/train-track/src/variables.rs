@@ -1,7 +1,7 @@
 //! Interface list of the train–track subsystem, and how a state fills its outputs.
 
-use ttb_coupling::work::WORK;
-use ttb_coupling::{Interface, Kind, Values, Variable};
+use ttb_contract::names::WORK;
+use ttb_contract::{Interface, Kind, Values, Variable};
 use ttb_dynamics::newmark::Motion;
 use ttb_scenario::spec::{Profile, TrainTrackSpec};
 

@@ -3,7 +3,7 @@
 mod common;
 
 use common::{spec, started, value};
-use ttb_coupling::{Instance, Model};
+use ttb_contract::{Instance, Model};
 use ttb_record::Table;
 use ttb_scenario::spec::Profile;
 use ttb_scenario::types::{RailPoint, Ramp, RampShape, Wave};

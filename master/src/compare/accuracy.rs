@@ -6,8 +6,9 @@ use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use ttb_bridge::Bridge;
+use ttb_contract::{InProcess, Interface, Model, ModelError, Pair};
+use ttb_coupling::Coupling;
 use ttb_coupling::run::{TimeAxis, run as run_steps};
-use ttb_coupling::{Coupling, InProcess, Interface, Model, ModelError, Pair};
 use ttb_scenario::Checked;
 use ttb_scenario::step::Steps;
 use ttb_train_track::TrainTrack;
@@ -87,9 +88,10 @@ fn histories(checked: &Checked, h: f64, quiet: bool, stop: &AtomicBool) -> Resul
     let references = [&of_train, &of_bridge].map(|list| list.iter().map(|(_, r)| *r).collect::<Vec<u32>>());
     let names = of_train.into_iter().chain(of_bridge).map(|(name, _)| (name, Vec::new()));
     let mut table: Histories = names.collect();
-    let Pair { mut train_track, mut bridge, coupled } =
-        Pair::new(train_track, bridge, |force| checked.sent_force(force)).map_err(refused)?;
-    let mut coupling = Coupling::new(coupled.0, coupled.1, checked.settings());
+    let Pair { mut train_track, mut bridge, ports } =
+        Pair::new(train_track, bridge, checked.settings().force_scale, |force| checked.sent_force(force))
+            .map_err(refused)?;
+    let mut coupling = Coupling::new(ports.forces(), ports.motions(), checked.settings());
     coupling.initialise(&mut train_track, &mut bridge, 0.0)?;
     let mut row = vec![0.0; table.len()];
     let mut read = |t: &mut InProcess<TrainTrack>, b: &mut InProcess<Bridge>| {

@@ -4,8 +4,9 @@ use std::ops::ControlFlow;
 use std::sync::atomic::Ordering;
 
 use ttb_bridge::Bridge;
+use ttb_contract::{InProcess, Model, ModelError, Pair};
 use ttb_coupling::run::{TimeAxis, run as run_steps};
-use ttb_coupling::{Coupling, InProcess, Model, ModelError, Pair, StepInfo};
+use ttb_coupling::{Coupling, StepInfo};
 use ttb_scenario::Checked;
 use ttb_scenario::step::Steps;
 use ttb_train_track::TrainTrack;
@@ -26,9 +27,10 @@ pub fn run(bench: &Bench, row: &Planned) -> Result<Ran, Error> {
     let train_track = TrainTrack::new(checked.train_track.clone()).map_err(refused)?;
     let bridge = Bridge::new(checked.bridge.clone()).map_err(refused)?;
     let outputs = Outputs::new(&train_track, &bridge, &bench.watched)?;
-    let Pair { mut train_track, mut bridge, coupled } =
-        Pair::new(train_track, bridge, |force| checked.sent_force(force)).map_err(refused)?;
-    let mut coupling = Coupling::new(coupled.0, coupled.1, checked.settings());
+    let Pair { mut train_track, mut bridge, ports } =
+        Pair::new(train_track, bridge, checked.settings().force_scale, |force| checked.sent_force(force))
+            .map_err(refused)?;
+    let mut coupling = Coupling::new(ports.forces(), ports.motions(), checked.settings());
     coupling.initialise(&mut train_track, &mut bridge, 0.0)?;
     let axis = TimeAxis::new(row.step, checked.train_track.end);
     let mut ran = Ran { method: row.name.clone(), step: row.step, steps: axis.steps(), ..Ran::default() };
@@ -77,7 +79,7 @@ struct Outputs {
 
 impl Outputs {
     fn new(train_track: &TrainTrack, bridge: &Bridge, watched: &Watched) -> Result<Self, Error> {
-        let find = |interface: &ttb_coupling::Interface, name: String| {
+        let find = |interface: &ttb_contract::Interface, name: String| {
             let found = interface.find(&name).map(|r| r as u32);
             found.ok_or_else(|| Error::Input(format!("there is no output {name}")))
         };

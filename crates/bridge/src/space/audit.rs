@@ -7,7 +7,7 @@
 //!
 //! r_i is the rigid motion of the whole model along or about an axis.
 
-use ttb_coupling::ModelError;
+use ttb_contract::ModelError;
 use ttb_dynamics::vector::dot;
 use ttb_elements::Matrices;
 use ttb_scenario::GRAVITY;

@@ -2,7 +2,7 @@
 
 use std::collections::HashSet;
 
-use ttb_coupling::ModelError;
+use ttb_contract::ModelError;
 use ttb_scenario::space::Index;
 use ttb_scenario::types::{Beams, DeckCarrier, Model};
 

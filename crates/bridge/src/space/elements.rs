@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use ttb_coupling::ModelError;
+use ttb_contract::ModelError;
 use ttb_elements::{Beam3, Mass, Matrices, Shell3, Shell4, Spring, Truss3};
 use ttb_scenario::space::{Index, Motion, motion};
 use ttb_scenario::types::{Freedom, Model};

@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use ttb_coupling::ModelError;
+use ttb_contract::ModelError;
 use ttb_scenario::space::{Index, Motion, Part, Ties, motion, parts};
 use ttb_scenario::types::{Freedom, Model};
 

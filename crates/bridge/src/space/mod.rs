@@ -18,7 +18,7 @@ mod solids;
 mod tied;
 mod track;
 
-use ttb_coupling::ModelError;
+use ttb_contract::ModelError;
 use ttb_dynamics::sparse::Assembly;
 use ttb_scenario::types::{Direction, Freedom, Model, Point};
 

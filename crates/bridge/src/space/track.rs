@@ -8,7 +8,7 @@
 //!
 //! The same weights distribute a force, so that its power enters the model and an eccentric track twists the deck.
 
-use ttb_coupling::ModelError;
+use ttb_contract::ModelError;
 use ttb_scenario::space::{Index, motion};
 use ttb_scenario::types::{Freedom, Model};
 

@@ -2,7 +2,7 @@
 #![allow(dead_code, reason = "every test file takes what it needs")]
 
 use ttb_bridge::Bridge;
-use ttb_coupling::{Instance, Model};
+use ttb_contract::{Instance, Model};
 use ttb_scenario::spec::{BridgeSpec, StructureSpec};
 use ttb_scenario::types::{Damping, Fixity, Frame, Member, MemberKind, Newmark, Node, Point, Section, Span};
 

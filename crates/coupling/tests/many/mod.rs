@@ -5,9 +5,10 @@
 //! train–track   G_i = load_i(t) − d_i − c d_i²/200
 //! ```
 
+use ttb_contract::{Failure, Subsystem};
 use ttb_coupling::iteration::OnFailure;
 use ttb_coupling::predictor::Predictor;
-use ttb_coupling::{Failure, Method, Settings, Subsystem};
+use ttb_coupling::{Method, Settings};
 
 /// Forces.
 pub const N: usize = 40;
@@ -147,6 +148,9 @@ impl Subsystem for Side {
     fn restore(&mut self) -> Result<(), Failure> {
         self.output.copy_from_slice(&self.saved);
         Ok(())
+    }
+    fn name(&self) -> &str {
+        "side"
     }
     fn can_interpolate(&self) -> bool {
         true

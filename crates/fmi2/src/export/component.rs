@@ -2,8 +2,8 @@
 
 use super::log::Log;
 use super::states::SavedState;
-use ttb_coupling::instance::Phase;
-use ttb_coupling::{Instance, Kind, Model};
+use ttb_contract::instance::Phase;
+use ttb_contract::{Instance, Kind, Model};
 
 /// Where an instance is in its life (FMI 2.0, section 4.2.4); each is one bit, so that a call lists those it accepts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -4,7 +4,7 @@ use super::component::{Component, Stage};
 use crate::types::{Status, fmi2Component, fmi2Status};
 use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use ttb_coupling::{Model, ModelError};
+use ttb_contract::{Model, ModelError};
 
 /// A C function and the stages it is allowed in.
 #[derive(Clone, Copy)]

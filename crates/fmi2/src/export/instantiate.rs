@@ -8,7 +8,7 @@ use crate::types::*;
 use std::ffi::{CStr, CString};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::ptr;
-use ttb_coupling::{Model, ModelError};
+use ttb_contract::{Model, ModelError};
 use ttb_model_description::guid;
 
 /// Loads the model, compares GUIDs, makes an instance; null and a logged message when that fails.

@@ -4,7 +4,7 @@ use super::component::{Component, Progress, Stage};
 use super::guard::{ALWAYS, Call, DONE, READABLE, guard, refuse, slice};
 use crate::types::*;
 use std::ffi::CStr;
-use ttb_coupling::Model;
+use ttb_contract::Model;
 
 const SET_DEBUG_LOGGING: Call = Call { name: "fmi2SetDebugLogging", allowed: READABLE };
 const SETUP_EXPERIMENT: Call = Call { name: "fmi2SetupExperiment", allowed: Stage::Instantiated as u8 };

@@ -2,7 +2,7 @@
 //!
 //! * [`export_fmu!`](crate::export_fmu) writes out the 44 C functions; each calls its namesake in this module;
 //! * [`guard`] stands around every one of them: no null instance, no call in the wrong state, no panic gets past it;
-//! * [`component`] is an instance: the model in its life cycle ([`ttb_coupling::Instance`]), log, saved states.
+//! * [`component`] is an instance: the model in its life cycle ([`ttb_contract::Instance`]), log, saved states.
 //!
 //! The shell has no static state and reads no file but the model's resources, in `fmi2Instantiate`.
 

@@ -7,8 +7,8 @@
 use super::component::{Component, Progress, Stage};
 use super::guard::{ALIVE, ALWAYS, Call, DONE, READABLE, guard, place, refuse, slice, slice_mut};
 use crate::types::*;
-use ttb_coupling::instance::Snapshot;
-use ttb_coupling::{Model, ModelError};
+use ttb_contract::Snapshot;
+use ttb_contract::{Model, ModelError};
 
 /// A saved instance.
 pub struct SavedState<M: Model> {

@@ -3,7 +3,7 @@
 use super::component::{Component, Stage};
 use super::guard::{Call, DONE, READABLE, guard, place, refuse};
 use crate::types::*;
-use ttb_coupling::Model;
+use ttb_contract::Model;
 
 /// How far, relative to max(1, stop), a step may reach past the stop time: importers add up step sizes.
 const PAST_STOP: f64 = 1e-9;

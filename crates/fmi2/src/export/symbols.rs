@@ -5,7 +5,7 @@
 
 /// Makes a shared library an FMU: `export_fmu!(my_crate::MyModel, "MyModelIdentifier");`
 ///
-/// The model is any [`ttb_coupling::Model`]; the identifier must be the one in modelDescription.xml, since it is part of
+/// The model is any [`ttb_contract::Model`]; the identifier must be the one in modelDescription.xml, since it is part of
 /// the GUID. Two libraries that used this macro must never be linked into one program: they export the same symbols.
 #[macro_export]
 macro_rules! export_fmu {

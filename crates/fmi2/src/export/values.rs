@@ -5,7 +5,7 @@
 use super::component::{Component, Type};
 use super::guard::{ALIVE, Answer, Call, DONE, READABLE, guard, refuse, slice, slice_mut};
 use crate::types::*;
-use ttb_coupling::{Model, ModelError};
+use ttb_contract::{Model, ModelError};
 
 impl<M: Model> Component<M> {
     /// All references exist and are of the type of the call.

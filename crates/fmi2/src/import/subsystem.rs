@@ -5,9 +5,8 @@ use super::error::FmuError;
 use super::instance::FmuInstance;
 use super::state::StateSlot;
 use super::transform::{Linear, Transform};
-use ttb_coupling::dense::not_finite;
-use ttb_coupling::work::WORK;
-use ttb_coupling::{Failure, Subsystem};
+use ttb_contract::names::WORK;
+use ttb_contract::{Failure, Signal, Subsystem};
 
 /// Makes an instance like a coupled one, coupled alike and in initialization mode.
 pub type Another = Box<dyn Fn() -> Result<FmuSubsystem, FmuError> + Send>;
@@ -24,8 +23,8 @@ pub struct FmuSubsystem {
     transform: Option<Transform>,
     roll_back: bool,
     another: Option<Another>,
-    /// Time the outputs belong to in s, for messages.
-    time: f64,
+    /// The outputs that are recorded.
+    recorded: Vec<u32>,
 }
 
 impl FmuSubsystem {
@@ -53,7 +52,7 @@ impl FmuSubsystem {
         let slot = instance.new_slot();
         let roll_back = instance.can_restore();
         let (orders, transform, another) = (vec![1; inputs.len()], None, None);
-        Ok(Self { orders, inputs, outputs, work, slot, instance, transform, roll_back, another, time: 0.0 })
+        Ok(Self { orders, inputs, outputs, work, slot, instance, transform, roll_back, another, recorded: Vec::new() })
     }
 
     /// Never saves or restores, whatever the FMU promises; `another` makes instances to be tried and thrown away in its
@@ -77,14 +76,6 @@ impl FmuSubsystem {
         &mut self.instance
     }
 
-    /// Reads any Reals, for recording; they may be NaN.
-    ///
-    /// # Errors
-    /// The FMU refuses.
-    pub fn read(&mut self, references: &[u32], values: &mut [f64]) -> Result<(), Failure> {
-        self.instance.get_real(references, values).map_err(|e| self.failure(&e))
-    }
-
     /// The message without the instance's name, which a [`Failure`] carries itself.
     #[cold]
     fn failure(&self, error: &FmuError) -> Failure {
@@ -92,16 +83,6 @@ impl FmuSubsystem {
         let message = error.to_string();
         let message = message.strip_prefix(&format!("{subsystem}: ")).map_or(message.clone(), str::to_string);
         Failure { subsystem, message }
-    }
-
-    #[cold]
-    fn not_finite(&self, index: usize, value: f64) -> Failure {
-        let reference = self.outputs[index];
-        let is_it = |v: &&super::ScalarVariable| v.value_reference == reference && v.causality == "output";
-        let variable = self.instance.description().variables.iter().find(is_it);
-        let variable = variable.map_or_else(|| format!("#{reference}"), |v| v.name.clone());
-        let instance = self.instance.name().to_string();
-        self.failure(&FmuError::NotFinite { instance, variable, value, time: self.time })
     }
 }
 
@@ -119,16 +100,17 @@ impl Subsystem for FmuSubsystem {
         set.map_err(|e| self.failure(&e))
     }
 
-    /// Refuses NaN and infinity: one such number would poison everything it meets.
     fn get_outputs(&mut self, outputs: &mut [f64]) -> Result<(), Failure> {
         self.instance.get_real(&self.outputs, outputs).map_err(|e| self.failure(&e))?;
-        match not_finite(outputs) {
-            None => {
-                self.transform.iter().for_each(|transform| transform.outputs(outputs));
-                Ok(())
-            }
-            Some(index) => Err(self.not_finite(index, outputs[index])),
-        }
+        self.transform.iter().for_each(|transform| transform.outputs(outputs));
+        Ok(())
+    }
+
+    fn output_name(&self, index: usize) -> String {
+        let reference = self.outputs[index];
+        let is_it = |v: &&super::ScalarVariable| v.value_reference == reference && v.causality == "output";
+        let variable = self.instance.description().variables.iter().find(is_it);
+        variable.map_or_else(|| format!("#{reference}"), |v| v.name.clone())
     }
 
     fn exit_initialization(&mut self) -> Result<(), Failure> {
@@ -136,7 +118,6 @@ impl Subsystem for FmuSubsystem {
     }
 
     fn step(&mut self, t: f64, h: f64, may_restore: bool) -> Result<(), Failure> {
-        self.time = t + h;
         self.instance.do_step(t, h, may_restore).map_err(|e| self.failure(&e))
     }
 
@@ -151,7 +132,7 @@ impl Subsystem for FmuSubsystem {
     fn work(&mut self) -> Result<Option<f64>, Failure> {
         let Some(reference) = self.work else { return Ok(None) };
         let mut work = [0.0];
-        self.read(&[reference], &mut work)?;
+        self.instance.get_real(&[reference], &mut work).map_err(|e| self.failure(&e))?;
         Ok(Some(work[0]))
     }
 
@@ -163,12 +144,12 @@ impl Subsystem for FmuSubsystem {
         self.roll_back
     }
 
-    fn understudy(&mut self, inputs: &[f64]) -> Result<Option<Box<dyn Subsystem>>, Failure> {
+    fn trial_instance(&mut self, inputs: &[f64]) -> Result<Option<Box<dyn Subsystem>>, Failure> {
         let Some(another) = &self.another else { return Ok(None) };
-        let mut understudy = another().map_err(|e| self.failure(&e))?;
-        understudy.set_inputs(inputs, None)?;
-        understudy.exit_initialization()?;
-        Ok(Some(Box::new(understudy)))
+        let mut trial_instance = another().map_err(|e| self.failure(&e))?;
+        trial_instance.set_inputs(inputs, None)?;
+        trial_instance.exit_initialization()?;
+        Ok(Some(Box::new(trial_instance)))
     }
 
     fn can_derive(&self) -> bool {
@@ -181,5 +162,28 @@ impl Subsystem for FmuSubsystem {
         derived.map_err(|e| self.failure(&e))?;
         self.transform.iter().for_each(|transform| transform.changes(change));
         Ok(())
+    }
+
+    fn record(&mut self, wanted: &dyn Fn(&Signal) -> bool) -> Vec<Signal> {
+        let outputs = self.instance.description().with_causality("output").filter(|v| v.kind == VariableType::Real);
+        let signal = |v: &super::ScalarVariable| {
+            (v.value_reference, Signal { name: v.name.clone(), unit: v.unit.clone().unwrap_or_default() })
+        };
+        let (references, signals) = outputs.map(signal).filter(|(_, signal)| wanted(signal)).unzip();
+        self.recorded = references;
+        signals
+    }
+
+    /// They may be NaN.
+    fn read(&mut self, row: &mut [f64]) -> Result<(), Failure> {
+        self.instance.get_real(&self.recorded, row).map_err(|e| self.failure(&e))
+    }
+
+    fn name(&self) -> &str {
+        self.instance.name()
+    }
+
+    fn seconds(&self) -> f64 {
+        self.instance.tally().time.as_secs_f64()
     }
 }

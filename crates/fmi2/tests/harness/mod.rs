@@ -9,7 +9,7 @@ use std::ffi::{CStr, CString, c_char, c_int, c_void};
 use std::path::Path;
 use std::ptr;
 use std::sync::Mutex;
-use ttb_coupling::Model;
+use ttb_contract::Model;
 use ttb_fmi2::types::*;
 
 ttb_fmi2::export_fmu!(Oscillator, "Oscillator");

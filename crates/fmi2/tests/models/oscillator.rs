@@ -2,7 +2,7 @@
 //! kind, inputs held or interpolated, equilibrium, states, directional derivatives — and ways to misbehave.
 
 use std::path::Path;
-use ttb_coupling::{Interface, Kind, Model, ModelError, Values, Variable};
+use ttb_contract::{Interface, Kind, Model, ModelError, Values, Variable};
 
 /// Value references, in the order of the interface list.
 pub mod vr {

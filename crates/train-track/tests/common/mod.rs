@@ -2,7 +2,7 @@
 
 #![allow(dead_code, reason = "each test file uses its part")]
 
-use ttb_coupling::Instance;
+use ttb_contract::Instance;
 use ttb_scenario::spec::{Profile, TrainTrackSpec};
 use ttb_scenario::types::{Car, Contact, ContactLaw, Newmark, Rail, Spring, Support, TrackType, Tread};
 use ttb_train_track::TrainTrack;
@@ -59,7 +59,7 @@ pub fn started(spec: TrainTrackSpec) -> Instance<TrainTrack> {
 /// Value of a variable by name.
 pub fn value(instance: &mut Instance<TrainTrack>, name: &str) -> f64 {
     let reference =
-        ttb_coupling::Model::interface(instance.model()).find(name).unwrap_or_else(|| panic!("no variable {name}"));
+        ttb_contract::Model::interface(instance.model()).find(name).unwrap_or_else(|| panic!("no variable {name}"));
     let mut out = [0.0];
     instance.get(&[reference as u32], &mut out).expect("readable");
     out[0]

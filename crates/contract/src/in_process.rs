@@ -1,10 +1,11 @@
 //! An [`Instance`] coupled without an FMU: the library run.
 
-use crate::dense::not_finite;
-use crate::instance::{Instance, Snapshot};
+use crate::instance::Instance;
+use crate::interface::Kind;
 use crate::model::{Model, ModelError};
-use crate::subsystem::{Failure, Subsystem};
-use crate::work::WORK;
+use crate::names::WORK;
+use crate::snapshot::Snapshot;
+use crate::subsystem::{Failure, Signal, Subsystem};
 
 /// A model inside this process, with the value references of its coupled variables.
 pub struct InProcess<M: Model> {
@@ -13,16 +14,17 @@ pub struct InProcess<M: Model> {
     inputs: Vec<u32>,
     outputs: Vec<u32>,
     work: Option<u32>,
+    recorded: Vec<u32>,
     slot: Option<Snapshot<M>>,
 }
 
 impl<M: Model> InProcess<M> {
-    /// Wraps an instance; `inputs` and `outputs` are coupled in the order of the connections.
+    /// Wraps an instance; `inputs` and `outputs` are coupled, in the order of the ports.
     pub fn new(name: &str, instance: Instance<M>, inputs: Vec<u32>, outputs: Vec<u32>) -> Self {
         let work = instance.model().interface().find(WORK).map(|reference| reference as u32);
-        Self { name: name.to_string(), instance, inputs, outputs, work, slot: None }
+        Self { name: name.to_string(), instance, inputs, outputs, work, recorded: Vec::new(), slot: None }
     }
-    /// The instance, for reading results.
+    /// The instance.
     pub fn instance(&mut self) -> &mut Instance<M> {
         &mut self.instance
     }
@@ -41,10 +43,10 @@ impl<M: Model> Subsystem for InProcess<M> {
         set.map_err(|e| self.failure(&e))
     }
     fn get_outputs(&mut self, outputs: &mut [f64]) -> Result<(), Failure> {
-        self.instance.get(&self.outputs, outputs).map_err(|e| self.failure(&e))?;
-        let Some(index) = not_finite(outputs) else { return Ok(()) };
-        let name = &self.instance.model().interface().variables()[self.outputs[index] as usize].name;
-        Err(self.failure(&ModelError(format!("output {name} is {}", outputs[index]))))
+        self.instance.get(&self.outputs, outputs).map_err(|e| self.failure(&e))
+    }
+    fn output_name(&self, index: usize) -> String {
+        self.instance.model().interface().variables()[self.outputs[index] as usize].name.clone()
     }
     fn exit_initialization(&mut self) -> Result<(), Failure> {
         self.instance.exit_initialization().map_err(|e| self.failure(&e))
@@ -80,5 +82,23 @@ impl<M: Model> Subsystem for InProcess<M> {
     fn derivative(&mut self, seed: &[f64], change: &mut [f64]) -> Result<(), Failure> {
         let derived = self.instance.directional_derivative(&self.outputs, &self.inputs, seed, change);
         derived.map_err(|e| self.failure(&e))
+    }
+    fn record(&mut self, wanted: &dyn Fn(&Signal) -> bool) -> Vec<Signal> {
+        let interface = self.instance.model().interface();
+        let signal = |reference: usize| {
+            let variable = &interface.variables()[reference];
+            let unit = if let Kind::Real { unit } = variable.kind { unit } else { "" };
+            Signal { name: variable.name.clone(), unit: unit.into() }
+        };
+        let chosen = interface.outputs().map(|r| (r as u32, signal(r))).filter(|(_, signal)| wanted(signal));
+        let (references, signals) = chosen.unzip();
+        self.recorded = references;
+        signals
+    }
+    fn read(&mut self, row: &mut [f64]) -> Result<(), Failure> {
+        self.instance.get(&self.recorded, row).map_err(|e| self.failure(&e))
+    }
+    fn name(&self) -> &str {
+        &self.name
     }
 }

@@ -1,6 +1,7 @@
 //! What a subsystem's physics provides, whether it runs behind FMI or inside this process.
 
-use crate::interface::{Interface, Values};
+use crate::interface::Interface;
+use crate::values::Values;
 
 /// Why a model could not do what it was asked; the message is meant for the user.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -1,4 +1,4 @@
-//! The only view the iteration has of a subsystem: a few verbs over two vectors.
+//! The view that an iteration and a recorder have of either side: a few verbs over vectors.
 
 /// A subsystem that did not do what it was asked.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -16,7 +16,17 @@ impl std::fmt::Display for Failure {
 }
 impl std::error::Error for Failure {}
 
-/// One side of the interface, seen as FMI 2.0 sees it. Vectors are in the order of the connections.
+/// An output that can be recorded.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Signal {
+    /// Its name.
+    pub name: String,
+    /// Its unit; empty if none is told.
+    pub unit: String,
+}
+
+/// One side of the interface, seen as FMI sees it. Coupled vectors are in the order of the [`crate::Ports`]: one force a port;
+/// positions, rates and others of the motions.
 pub trait Subsystem {
     /// Sets the coupled inputs: values at t_n and, if `rates` is given, their first derivatives over the coming step.
     ///
@@ -24,11 +34,17 @@ pub trait Subsystem {
     /// The subsystem refuses.
     fn set_inputs(&mut self, values: &[f64], rates: Option<&[f64]>) -> Result<(), Failure>;
 
-    /// Reads the coupled outputs: at the end of the last step, or in static equilibrium during initialization.
+    /// Reads the coupled outputs: at the end of the last step, or in static equilibrium during initialization. They may not
+    /// be finite: the caller looks.
     ///
     /// # Errors
     /// The subsystem refuses.
     fn get_outputs(&mut self, outputs: &mut [f64]) -> Result<(), Failure>;
+
+    /// Name of the coupled output at a position, for messages.
+    fn output_name(&self, index: usize) -> String {
+        format!("coupled output number {}", index + 1)
+    }
 
     /// Ends initialization.
     ///
@@ -70,12 +86,12 @@ pub trait Subsystem {
         true
     }
 
-    /// Another instance of the same, to be tried and thrown away: in the state this one had when initialization ended, under
-    /// `inputs`. None if there can be none.
+    /// Another instance of the same, for trial steps, to be dropped afterwards: in the state this one had when initialization
+    /// ended, under `inputs`. `None` if there can be none.
     ///
     /// # Errors
     /// It cannot be made.
-    fn understudy(&mut self, _inputs: &[f64]) -> Result<Option<Box<dyn Subsystem>>, Failure> {
+    fn trial_instance(&mut self, _inputs: &[f64]) -> Result<Option<Box<dyn Subsystem>>, Failure> {
         Ok(None)
     }
 
@@ -92,6 +108,27 @@ pub trait Subsystem {
     fn derivative(&mut self, _seed: &[f64], _change: &mut [f64]) -> Result<(), Failure> {
         Err(Failure { subsystem: "a subsystem".into(), message: "it provides no directional derivatives".into() })
     }
+
+    /// Chooses the outputs that [`Subsystem::read`] reads, those that are `wanted`, and tells them in its order.
+    fn record(&mut self, _wanted: &dyn Fn(&Signal) -> bool) -> Vec<Signal> {
+        Vec::new()
+    }
+
+    /// Reads the outputs that were chosen.
+    ///
+    /// # Errors
+    /// The subsystem refuses.
+    fn read(&mut self, _row: &mut [f64]) -> Result<(), Failure> {
+        Ok(())
+    }
+
+    /// Name of the instance, or of all instances behind it.
+    fn name(&self) -> &str;
+
+    /// Seconds spent inside the subsystem's own code so far, where that is measured.
+    fn seconds(&self) -> f64 {
+        0.0
+    }
 }
 
 impl<S: Subsystem + ?Sized> Subsystem for Box<S> {
@@ -100,6 +137,9 @@ impl<S: Subsystem + ?Sized> Subsystem for Box<S> {
     }
     fn get_outputs(&mut self, outputs: &mut [f64]) -> Result<(), Failure> {
         (**self).get_outputs(outputs)
+    }
+    fn output_name(&self, index: usize) -> String {
+        (**self).output_name(index)
     }
     fn exit_initialization(&mut self) -> Result<(), Failure> {
         (**self).exit_initialization()
@@ -122,13 +162,25 @@ impl<S: Subsystem + ?Sized> Subsystem for Box<S> {
     fn can_roll_back(&self) -> bool {
         (**self).can_roll_back()
     }
-    fn understudy(&mut self, inputs: &[f64]) -> Result<Option<Box<dyn Subsystem>>, Failure> {
-        (**self).understudy(inputs)
+    fn trial_instance(&mut self, inputs: &[f64]) -> Result<Option<Box<dyn Subsystem>>, Failure> {
+        (**self).trial_instance(inputs)
     }
     fn can_derive(&self) -> bool {
         (**self).can_derive()
     }
     fn derivative(&mut self, seed: &[f64], change: &mut [f64]) -> Result<(), Failure> {
         (**self).derivative(seed, change)
+    }
+    fn record(&mut self, wanted: &dyn Fn(&Signal) -> bool) -> Vec<Signal> {
+        (**self).record(wanted)
+    }
+    fn read(&mut self, row: &mut [f64]) -> Result<(), Failure> {
+        (**self).read(row)
+    }
+    fn name(&self) -> &str {
+        (**self).name()
+    }
+    fn seconds(&self) -> f64 {
+        (**self).seconds()
     }
 }

@@ -1,9 +1,9 @@
 //! A model with the life cycle of an FMI 2.0 co-simulation slave: the FMU shell and the in-process run share it, so that
 //! both take exactly the same path through the physics.
 
-use crate::interface::{Causality, Kind, Values};
+use crate::interface::{Causality, Kind};
 use crate::model::{Model, ModelError};
-pub use crate::snapshot::Snapshot;
+use crate::values::Values;
 
 /// Life cycle of an instance (FMI 2.0, section 4.2.4).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,8 +1,8 @@
 //! Saved instances, in memory and as bytes.
 
 use crate::instance::{Instance, Phase};
-use crate::interface::Values;
 use crate::model::{Model, ModelError};
+use crate::values::Values;
 
 /// Mark and version of the bytes.
 const MAGIC: &[u8; 8] = b"ttbstat1";
