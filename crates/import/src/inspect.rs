@@ -5,7 +5,8 @@
 //! held rows:      K r ≠ 0 where a support, or a spring to the ground, holds the model against the motion r
 //! ```
 
-use crate::dofs::{Dofs, INTERNAL};
+use crate::dof::INTERNAL;
+use crate::dofs::Dofs;
 use crate::files::{FileFacts, Imported};
 use crate::matrix::SymmetricMatrix;
 

@@ -9,6 +9,7 @@
 //! than the result takes. Whatever is wrong with a file is refused with file, line, rule and value ([`Problem`]).
 
 mod collect;
+mod dof;
 mod dofs;
 mod files;
 mod formats;
@@ -23,7 +24,8 @@ mod read;
 mod rows;
 mod table;
 
-pub use dofs::{DIRECTIONS, Dof, Dofs, INTERNAL};
+pub use dof::{DIRECTIONS, Dof, INTERNAL};
+pub use dofs::Dofs;
 pub use files::{FileFacts, Files, Imported};
 pub use formats::Format;
 pub use input::Input;

@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use crate::dofs::Dof;
+use crate::dof::Dof;
 
 /// Nodes below are found in a table, others by hashing; the table then takes at most 16 MB.
 const DENSE: u32 = 1 << 22;

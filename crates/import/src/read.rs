@@ -1,7 +1,7 @@
 //! Reading one matrix.
 
 use crate::collect::{Counts, Filler, MOST_ROWS};
-use crate::dofs::Dof;
+use crate::dof::Dof;
 use crate::formats::{Format, Known};
 use crate::input::Input;
 use crate::matrix::SymmetricMatrix;

@@ -1,6 +1,6 @@
 //! Where supports and points rest: weights on the rows of the matrices.
 
-use crate::dofs::{Dof, direction};
+use crate::dof::{Dof, direction};
 use crate::input::Input;
 use crate::numbering::Numbering;
 use crate::problem::{Report, Stop};

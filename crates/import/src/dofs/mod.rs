@@ -3,38 +3,14 @@
 mod readers;
 
 use std::collections::HashMap;
-use std::fmt;
 
+use crate::dof::Dof;
 use crate::input::Input;
 use crate::numbering::Numbering;
 use crate::problem::{Report, Stop};
 
+use readers::Found;
 pub(crate) use readers::nodes;
-
-/// Names of a node's six motions, in order.
-pub const DIRECTIONS: [&str; 6] = ["x", "y", "z", "rx", "ry", "rz"];
-
-/// The internal node −k of an Abaqus model has the number `INTERNAL` + k.
-pub const INTERNAL: u32 = 1 << 31;
-
-/// A degree of freedom, in the axes of the program that wrote the matrices.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub struct Dof {
-    /// Number of its node; above [`INTERNAL`] an internal one.
-    pub node: u32,
-    /// 0…5: one of [`DIRECTIONS`].
-    pub freedom: u8,
-}
-
-impl fmt::Display for Dof {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let direction = DIRECTIONS.get(usize::from(self.freedom)).unwrap_or(&"?");
-        match self.node {
-            internal if internal > INTERNAL => write!(f, "internal node {}, {direction}", internal - INTERNAL),
-            node => write!(f, "node {node}, {direction}"),
-        }
-    }
-}
 
 /// Degrees of freedom of a model.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -47,20 +23,6 @@ pub struct Dofs {
     pub node_of: Vec<u32>,
     /// Coordinates (x, y, z) of the nodes, m, in `nodes`' order, if they are known.
     pub coordinates: Option<Vec<[f64; 3]>>,
-}
-
-/// A direction by its name: x, ux, 1; rx, rotx, 4.
-pub(crate) fn direction(name: &str) -> Option<u8> {
-    const ALIASES: [[&str; 3]; 6] = [
-        ["x", "ux", "1"],
-        ["y", "uy", "2"],
-        ["z", "uz", "3"],
-        ["rx", "rotx", "4"],
-        ["ry", "roty", "5"],
-        ["rz", "rotz", "6"],
-    ];
-    let name = name.to_ascii_lowercase();
-    (0..6).find(|&freedom| ALIASES[usize::from(freedom)].contains(&name.as_str()))
 }
 
 impl Dofs {
@@ -97,9 +59,6 @@ pub(crate) fn read(input: &Input, nodes: Option<&HashMap<u32, [f64; 3]>>, report
     }
     Ok(Dofs::new(dofs, known))
 }
-
-/// A row as a file gives it: line, number, what it is.
-type Found = (u64, u32, Dof);
 
 /// Rows in order, each there once, each with a label of its own.
 fn order(mut rows: Vec<Found>, report: &mut Report) -> Result<Vec<Dof>, Stop> {

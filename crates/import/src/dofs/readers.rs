@@ -2,12 +2,15 @@
 
 use std::collections::HashMap;
 
-use super::{Dof, Found, direction};
+use crate::dof::{Dof, direction};
 use crate::input::Input;
 use crate::lines::Lines;
 use crate::number::{Fields, whole};
 use crate::problem::{Report, Stop, excerpt};
 use crate::table::{Column, Table};
+
+/// A row as a file gives it: line, number, what it is.
+pub(super) type Found = (u64, u32, Dof);
 
 /// Columns row, node, direction and maybe x, y, z.
 pub(super) fn table(

@@ -3,7 +3,7 @@
 
 use super::{Heading, Known, triplets};
 use crate::collect::Symmetry;
-use crate::dofs::{Dof, INTERNAL};
+use crate::dof::{Dof, INTERNAL};
 use crate::input::Input;
 use crate::lines::{Line, Lines};
 use crate::number::Fields;

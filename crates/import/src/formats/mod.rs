@@ -13,7 +13,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::collect::Symmetry;
-use crate::dofs::Dof;
+use crate::dof::Dof;
 use crate::input::Input;
 use crate::lines::Lines;
 use crate::number::Fields;
