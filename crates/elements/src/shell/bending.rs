@@ -14,7 +14,7 @@
 //! φ_k is the Timoshenko beam's, and on the edge so is the solution.
 
 use super::membrane4::shapes;
-use super::{Plate, SHEAR_FACTOR};
+use super::plate::{Plate, SHEAR_FACTOR};
 
 /// Integration point of an element with N corners and N edges.
 struct Point<const N: usize> {

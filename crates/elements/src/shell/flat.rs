@@ -15,7 +15,7 @@
 
 use nalgebra::{Matrix3, SMatrix, Vector3};
 
-use super::Plate;
+use super::plate::Plate;
 use crate::matrices::{Matrices, Weights};
 
 /// The mean plane of an element.

@@ -7,7 +7,7 @@
 //! θ̃: corner rotation less that of the linear displacement
 //! ```
 
-use super::Plate;
+use super::plate::Plate;
 
 /// Over u, v, θ of three corners.
 pub(super) type Matrix9 = [[f64; 9]; 9];

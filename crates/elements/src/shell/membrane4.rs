@@ -26,7 +26,7 @@
 //!
 //! ε and γ are small enough not to be felt in slender in-plane bending and large enough to keep K well-conditioned.
 
-use super::Plate;
+use super::plate::Plate;
 
 /// Over u, v, θ of four corners.
 pub(super) type Matrix12 = [[f64; 12]; 12];

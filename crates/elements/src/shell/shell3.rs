@@ -4,7 +4,8 @@ use nalgebra::Vector3;
 
 use super::flat::{Flat, Products, interpolate};
 use super::membrane4::area;
-use super::{Plate, bending, membrane3};
+use super::plate::Plate;
+use super::{bending, membrane3};
 use crate::error::{ElementError, exceeds};
 use crate::matrices::{Matrices, Weights};
 

@@ -4,7 +4,8 @@ use nalgebra::Vector3;
 
 use super::flat::{Flat, Products, interpolate};
 use super::membrane4::{GAUSS, area, bilinear, shapes};
-use super::{Plate, bending, membrane4};
+use super::plate::Plate;
+use super::{bending, membrane4};
 use crate::error::{ElementError, exceeds};
 use crate::matrices::{Matrices, Weights};
 

@@ -3,6 +3,7 @@
 use nalgebra::{DVector, Matrix3, Rotation3, Vector3};
 
 use super::*;
+use crate::error::ElementError;
 use crate::matrices::testing::{check, rigid, square};
 use crate::matrices::{Matrices, Weights};
 
