@@ -1,8 +1,8 @@
 //! A small finite-element model: enough to solve the benchmarks.
 
-use ttb_dynamics::modes::lowest;
-use ttb_dynamics::sparse::{Assembly, Pencil};
 use ttb_elements::{Matrices, Plate, Shell3, Shell4};
+use ttb_sparse::modes::lowest;
+use ttb_sparse::{Assembly, Pencil};
 
 /// Shape of the elements a surface is made of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,7 +1,7 @@
 //! What every description of a bridge in space comes down to: equations, places, and rows that lead in and out.
 
 use serde::{Deserialize, Serialize};
-use ttb_dynamics::sparse::Assembly;
+use ttb_sparse::Assembly;
 
 use crate::deck::Row;
 

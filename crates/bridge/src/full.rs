@@ -18,11 +18,11 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use ttb_dynamics::damping::modal_correction;
 use ttb_dynamics::dense::Dense;
-use ttb_dynamics::factor::{Factor, FactorError};
-use ttb_dynamics::modes::Modes;
 use ttb_dynamics::newmark::{Motion, Newmark};
-use ttb_dynamics::sparse::Pencil;
-use ttb_dynamics::vector::{add_scaled, dot};
+use ttb_sparse::Pencil;
+use ttb_sparse::modes::Modes;
+use ttb_sparse::vector::{add_scaled, dot};
+use ttb_sparse::{Factor, FactorError};
 
 use crate::lazy::Lazy;
 use crate::rows::Rows;

@@ -3,8 +3,8 @@
 use std::path::Path;
 
 use ttb_contract::ModelError;
-use ttb_dynamics::sparse::Assembly;
 use ttb_import::{Dofs, Files, Imported, Row};
+use ttb_sparse::Assembly;
 
 use crate::assembled::{Assembled, Monitor, Names};
 

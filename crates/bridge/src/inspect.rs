@@ -3,12 +3,12 @@
 use std::fmt;
 
 use ttb_contract::ModelError;
-use ttb_dynamics::factor::{Factor, FactorError, Layout};
-use ttb_dynamics::modes::lowest;
-use ttb_dynamics::sparse::Pencil;
 use ttb_import::Inspection;
 use ttb_scenario::spec::{BridgeSpec, StructureSpec};
 use ttb_scenario::types::Model;
+use ttb_sparse::Pencil;
+use ttb_sparse::modes::lowest;
+use ttb_sparse::{Factor, FactorError, Layout};
 
 use crate::assembled::{Assembled, Names};
 use crate::space::{self, SelfCheck, Statics};

@@ -8,12 +8,12 @@
 //! ```
 //!
 //! The reach of a row are the panels of its degrees of freedom and those above them in the elimination tree. It is smallest
-//! when these degrees of freedom are eliminated last (`ttb_dynamics::factor::Layout::last`).
+//! when these degrees of freedom are eliminated last (`ttb_sparse::Layout::last`).
 
 use ttb_dynamics::dense::Dense;
-use ttb_dynamics::factor::Factor;
-use ttb_dynamics::supernodal::{Numbers, Pattern};
-use ttb_dynamics::sweeps::{LANES, Which};
+use ttb_sparse::Factor;
+use ttb_sparse::supernodal::{Numbers, Pattern};
+use ttb_sparse::sweeps::{LANES, Which};
 
 use crate::rows::Rows;
 use crate::system::{Base, Work};

@@ -12,10 +12,10 @@
 
 use ttb_contract::ModelError;
 use ttb_dynamics::dense::Dense;
-use ttb_dynamics::factor::Factor;
 use ttb_dynamics::newmark::Newmark;
-use ttb_dynamics::sparse::{Pencil, Product};
-use ttb_dynamics::sweeps::{LANES, Which};
+use ttb_sparse::Factor;
+use ttb_sparse::sweeps::{LANES, Which};
+use ttb_sparse::{Pencil, Product};
 
 use crate::lazy::Lazy;
 use crate::rows::Rows;

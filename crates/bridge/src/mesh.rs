@@ -5,7 +5,7 @@
 
 use ttb_contract::ModelError;
 use ttb_dynamics::frame::FrameElement;
-use ttb_dynamics::sparse::Assembly;
+use ttb_sparse::Assembly;
 
 /// A node.
 #[derive(Clone, Debug)]

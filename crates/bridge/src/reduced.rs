@@ -10,8 +10,8 @@
 use std::sync::Arc;
 
 use ttb_dynamics::dense::Dense;
-use ttb_dynamics::factor::FactorError;
 use ttb_dynamics::newmark::{Motion, Newmark};
+use ttb_sparse::FactorError;
 
 use crate::rows::Rows;
 use crate::system::{Base, Law, Step, System, Work};

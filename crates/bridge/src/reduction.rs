@@ -13,12 +13,12 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 use ttb_contract::ModelError;
-use ttb_dynamics::factor::{Factor, FactorError};
-use ttb_dynamics::krylov::Krylov;
 use ttb_dynamics::newmark::{Motion, Newmark};
 use ttb_dynamics::reduction::{Answers, Shifted, reduce};
-use ttb_dynamics::sparse::Pencil;
 use ttb_scenario::types::Reduction;
+use ttb_sparse::Pencil;
+use ttb_sparse::excited::Excited;
+use ttb_sparse::{Factor, FactorError};
 
 use crate::deck::Row;
 use crate::full::Full;
@@ -100,10 +100,10 @@ pub fn build(
         let factor = pencil.factor(stiffness, mass, 0.0).map_err(failed)?;
         answers.add(pencil, Shifted { factor: &factor, stiffness, mass }, rows, supports);
     }
-    let mut krylov = Krylov::new(pencil, stiffness, &rows[..supports]);
+    let mut excited = Excited::new(pencil, stiffness, &rows[..supports]);
     loop {
-        let ritz = krylov.modes(std::f64::consts::TAU * hertz, MOST);
-        let basis = reduce(&answers, &krylov, &ritz, rows, NEGLIGIBLE);
+        let ritz = excited.modes(std::f64::consts::TAU * hertz, MOST);
+        let basis = reduce(&answers, &excited, &ritz, rows, NEGLIGIBLE);
         let modes = basis.modes;
         let pseudo_modes = basis.omega2.len() - modes;
         let rows = Rows::Single(basis.shapes.single());
@@ -114,7 +114,7 @@ pub fn build(
         drop(stepper);
         let [displacement, acceleration] = [0, 1].map(|i| difference(&seen[i], &truth[i]));
         let accuracy = Accuracy { modes, pseudo_modes, highest_frequency: hertz, displacement, acceleration };
-        let chosen = wish.highest_frequency.is_some() || krylov.dimension() >= MOST;
+        let chosen = wish.highest_frequency.is_some() || excited.dimension() >= MOST;
         if acceleration <= wish.error || chosen {
             let rows = Arc::unwrap_or_clone(shared);
             let system = Arc::into_inner(system).ok_or_else(|| ModelError("bridge: a model is held twice".into()))?;

@@ -7,8 +7,9 @@ use std::sync::Arc;
 use serde::{Deserialize, Serialize};
 use ttb_contract::ModelError;
 use ttb_dynamics::dense::Dense;
-use ttb_dynamics::modes::Modes;
-use ttb_dynamics::sparse::{Pencil, Raw};
+use ttb_sparse::Pencil;
+use ttb_sparse::modes::Modes;
+use ttb_sparse::raw::Raw;
 
 use crate::assembled::Monitor;
 use crate::full::Full;

@@ -5,12 +5,12 @@ use std::sync::Arc;
 
 use ttb_contract::ModelError;
 use ttb_dynamics::damping::rayleigh;
-use ttb_dynamics::factor::{Factor, FactorError, Layout};
-use ttb_dynamics::modes::{Modes, lowest};
 use ttb_dynamics::newmark::Newmark;
-use ttb_dynamics::sparse::Pencil;
 use ttb_scenario::spec::{BridgeSpec, StructureSpec};
 use ttb_scenario::types::{Damping, RayleighAt};
+use ttb_sparse::Pencil;
+use ttb_sparse::modes::{Modes, lowest};
+use ttb_sparse::{Factor, FactorError, Layout};
 
 use crate::assembled::{Assembled, Monitor, Names};
 use crate::deck::Row;

@@ -9,12 +9,12 @@ use ttb_bridge::Bridge;
 use ttb_bridge::mesh::Mesh;
 use ttb_contract::Instance;
 use ttb_dynamics::frame::ernst_modulus;
-use ttb_dynamics::modes::lowest;
 use ttb_record::Table;
 use ttb_scenario::spec::StructureSpec;
 use ttb_scenario::types::Fixity::{self, Rotation, X, Z};
 use ttb_scenario::types::MemberKind::{Beam, Cable, Truss};
 use ttb_scenario::types::{Direction, Frame, Point};
+use ttb_sparse::modes::lowest;
 
 /// A table of closed forms.
 fn table(title: &str) -> Table {

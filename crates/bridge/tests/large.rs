@@ -12,12 +12,12 @@ use ttb_bridge::rows::Rows;
 use ttb_bridge::space;
 use ttb_bridge::system::{Base, Law, System, Work};
 use ttb_contract::{Instance, Model};
-use ttb_dynamics::factor::Layout;
 use ttb_dynamics::newmark::{Motion, Newmark};
-use ttb_dynamics::sparse::Pencil;
 use ttb_generate::simple_span;
 use ttb_scenario::spec::{BridgeSpec, StructureSpec};
 use ttb_scenario::types::{Damping, Model as Elements, RayleighAt, Reduction, Springs};
+use ttb_sparse::Layout;
+use ttb_sparse::Pencil;
 
 const LENGTH: f64 = 24.0;
 

@@ -7,10 +7,10 @@ use serde_json::{Value, json};
 use ttb_bridge::Bridge;
 use ttb_bridge::assembled::Assembled;
 use ttb_bridge::space::{Statics, assemble, self_check};
-use ttb_dynamics::factor::{Factor, FactorError};
-use ttb_dynamics::modes::lowest;
-use ttb_dynamics::sparse::Pencil;
 use ttb_scenario::types::{Direction, Model, Point};
+use ttb_sparse::Pencil;
+use ttb_sparse::modes::lowest;
+use ttb_sparse::{Factor, FactorError};
 
 const L: f64 = 20.0;
 /// Of the beams below: E I₂, G J, ρ A.

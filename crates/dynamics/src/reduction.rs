@@ -20,11 +20,11 @@
 
 use faer::{Mat, MatRef, Side};
 
-use crate::blocks::{inner, solve_loads};
 use crate::dense::Dense;
-use crate::factor::Factor;
-use crate::krylov::{Krylov, Ritz};
-use crate::sparse::Pencil;
+use ttb_sparse::Factor;
+use ttb_sparse::Pencil;
+use ttb_sparse::blocks::{inner, solve_loads};
+use ttb_sparse::excited::{Excited, Ritz};
 
 /// A reduced model: m η̈_j + … + ω_j² η_j = φ_jᵀ f with unit modal mass.
 #[derive(Clone, Debug)]
@@ -73,9 +73,9 @@ impl Answers {
 }
 
 /// The model. Pseudo-modes that matter less than `negligible` (relative, in every combination's compliance) are left out.
-pub fn reduce(answers: &Answers, krylov: &Krylov, ritz: &Ritz, rows: &[Vec<(u32, f64)>], negligible: f64) -> Basis {
+pub fn reduce(answers: &Answers, excited: &Excited, ritz: &Ritz, rows: &[Vec<(u32, f64)>], negligible: f64) -> Basis {
     let s = answers.0.first().map_or(0, |answer| answer.inertia.ncols());
-    let seen = krylov.seen(ritz, rows);
+    let seen = excited.seen(ritz, rows);
     // Each less its part in the modes, Φ diag((c_K ω² + c_M)^power) P seen through the rows.
     let less = |matrix: &Mat<f64>, power: i32, answer: &Answer| -> Mat<f64> {
         let weight = |w2: &f64| (answer.stiffness * w2 + answer.mass).powi(power);

@@ -1,11 +1,11 @@
 //! Reduced models against what they reduce.
 
-use ttb_dynamics::blocks::solve;
-use ttb_dynamics::factor::Layout;
-use ttb_dynamics::krylov::Krylov;
-use ttb_dynamics::modes::lowest;
 use ttb_dynamics::reduction::{Answers, Basis, Shifted, reduce};
-use ttb_dynamics::sparse::{Assembly, Pencil};
+use ttb_sparse::Layout;
+use ttb_sparse::blocks::solve;
+use ttb_sparse::excited::Excited;
+use ttb_sparse::modes::lowest;
+use ttb_sparse::{Assembly, Pencil};
 
 /// A strip of springs on soft ground, two degrees of freedom a node.
 fn strip(long: usize) -> Pencil {
@@ -47,12 +47,12 @@ fn basis(long: usize, highest: f64) -> (Pencil, Basis) {
     let pencil = strip(long);
     let (stiffness, step) = (pencil.factor(1.0, 0.0, 0.0).unwrap(), pencil.factor(C[0], C[1], 0.0).unwrap());
     let rows = rows(long);
-    let mut krylov = Krylov::new(&pencil, &stiffness, &rows[..long / 4]);
-    let ritz = krylov.modes(highest, 2000);
+    let mut excited = Excited::new(&pencil, &stiffness, &rows[..long / 4]);
+    let ritz = excited.modes(highest, 2000);
     let mut answers = Answers::default();
     answers.add(&pencil, Shifted { factor: &stiffness, stiffness: 1.0, mass: 0.0 }, &rows, long / 4);
     answers.add(&pencil, Shifted { factor: &step, stiffness: C[0], mass: C[1] }, &rows, long / 4);
-    let basis = reduce(&answers, &krylov, &ritz, &rows, 0.0);
+    let basis = reduce(&answers, &excited, &ritz, &rows, 0.0);
     (pencil, basis)
 }
 

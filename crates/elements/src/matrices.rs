@@ -1,6 +1,6 @@
 //! What every element gives: K and M, and rows of interpolation.
 
-use ttb_dynamics::sparse::Assembly;
+use ttb_sparse::Assembly;
 
 /// A row over an element's degrees of freedom: (place among them, weight).
 pub type Weights = Vec<(usize, f64)>;

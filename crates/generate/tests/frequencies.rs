@@ -4,9 +4,9 @@ mod equations;
 
 use equations::{Equations, assemble};
 use ttb_bridge::space as assembled;
-use ttb_dynamics::factor::Layout;
-use ttb_dynamics::modes::{Modes, lowest};
 use ttb_generate::{CableStayed, Viaduct, cable_stayed, viaduct};
+use ttb_sparse::Layout;
+use ttb_sparse::modes::{Modes, lowest};
 
 /// Largest motions along x, y, z of the floor's axis and of the difference of z between the webs, by mode.
 fn describe(e: &Equations, modes: &Modes) -> Vec<(f64, [f64; 4])> {

@@ -12,7 +12,7 @@
 
 use ttb_bridge::system::Law;
 use ttb_dynamics::newmark::{Motion, Newmark};
-use ttb_dynamics::sparse::Assembly;
+use ttb_sparse::Assembly;
 
 use crate::ReferenceError;
 use crate::sweeps::Sweeps;
@@ -114,7 +114,7 @@ impl History {
 /// # Errors
 /// K̂ is not positive definite.
 pub fn factorised(whole: &Whole, newmark: &Newmark) -> Result<Sweeps, ReferenceError> {
-    let case = |e: ttb_dynamics::factor::FactorError| ReferenceError::Case(e.to_string());
+    let case = |e: ttb_sparse::FactorError| ReferenceError::Case(e.to_string());
     let pencil = equations(whole, newmark.a[0], newmark.a[1]).finish_with(&whole.layout).map_err(case)?;
     let factor = pencil.factor(1.0, 0.0, 0.0).map_err(case)?;
     Ok(Sweeps::new(factor, whole.rail()))

@@ -10,10 +10,10 @@
 use std::f64::consts::{PI, TAU};
 
 use ttb_dynamics::newmark::{Motion, Newmark};
-use ttb_dynamics::sparse::Assembly;
 use ttb_scenario::GRAVITY;
 use ttb_scenario::spec::{BridgeSpec, Profile, TrainTrackSpec};
 use ttb_scenario::types::{ContactLaw, RampShape, Tread};
+use ttb_sparse::Assembly;
 
 use crate::assembly::{Row, System};
 

@@ -12,7 +12,7 @@
 //! iterations sweep only over the part of the factor that rail and cars reach.
 
 use faer::sparse::{SparseColMatRef, SymbolicSparseColMat};
-use ttb_dynamics::factor::{Factor, Layout, Symbolic};
+use ttb_sparse::{Factor, Layout, Symbolic};
 
 use crate::constant;
 use crate::sweeps::Sweeps;
@@ -237,7 +237,7 @@ impl Stretch {
             return Err("a contact is off the pattern".into());
         }
         let a = SparseColMatRef::new(pattern.as_ref(), &values[..]);
-        let not_positive = |e: ttb_dynamics::factor::FactorError| e.to_string();
+        let not_positive = |e: ttb_sparse::FactorError| e.to_string();
         match sweeps {
             Some(sweeps) => sweeps.factor_mut().again(a).map_err(not_positive)?,
             None => {

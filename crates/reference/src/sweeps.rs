@@ -6,8 +6,8 @@
 //! finish   u = L⁻ᵀ (y + L⁻¹ f)                  a sweep over L
 //! ```
 
-use ttb_dynamics::factor::Factor;
-use ttb_dynamics::sweeps::{LANES, Which};
+use ttb_sparse::Factor;
+use ttb_sparse::sweeps::{LANES, Which};
 
 /// A force everywhere, N: far from the train all numbers decay, and subnormal ones are a hundred times slower.
 const WHISPER: f64 = 1e-100;

@@ -10,11 +10,11 @@ use ttb_bridge::structure::eliminated_last;
 use ttb_bridge::system::{Base, Law, Step, System, Work};
 use ttb_bridge::{reduction, space};
 use ttb_dynamics::damping::rayleigh;
-use ttb_dynamics::factor::Layout;
 use ttb_dynamics::newmark::{Motion, Newmark};
-use ttb_dynamics::sparse::Pencil;
 use ttb_scenario::spec::StructureSpec;
 use ttb_scenario::types::Reduction;
+use ttb_sparse::Layout;
+use ttb_sparse::Pencil;
 
 use crate::meter::{least, peak_memory, stream, timed};
 

@@ -8,11 +8,11 @@
 //! r_i is the rigid motion of the whole model along or about an axis.
 
 use ttb_contract::ModelError;
-use ttb_dynamics::vector::dot;
 use ttb_elements::Matrices;
 use ttb_scenario::GRAVITY;
 use ttb_scenario::space::{Motion, motion};
 use ttb_scenario::types::{Freedom, Model};
+use ttb_sparse::vector::dot;
 
 use super::diagonal::Diagonal;
 use super::elements::{self, Kind, Placed, coordinates};

@@ -19,8 +19,8 @@ mod tied;
 mod track;
 
 use ttb_contract::ModelError;
-use ttb_dynamics::sparse::Assembly;
 use ttb_scenario::types::{Direction, Freedom, Model, Point};
+use ttb_sparse::Assembly;
 
 use crate::assembled::{Assembled, Monitor};
 use crate::deck::Row;

@@ -39,7 +39,7 @@ impl Tied {
         whole
     }
 
-    /// The degrees of freedom as [`ttb_dynamics::sparse::Assembly::add`] takes them.
+    /// The degrees of freedom as [`ttb_sparse::Assembly::add`] takes them.
     pub fn present(&self) -> Vec<Option<u32>> {
         self.dofs.iter().map(|dof| Some(*dof)).collect()
     }

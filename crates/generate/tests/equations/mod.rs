@@ -2,10 +2,10 @@
 
 use std::collections::{BTreeMap, HashMap};
 
-use ttb_dynamics::sparse::{Assembly, Pencil};
 use ttb_elements::{Beam3, BeamSection, Matrices, Plate, Shell4, Spring, Truss3};
 use ttb_generate::measure::coordinates;
 use ttb_scenario::types::{Freedom, LineSection, Model};
+use ttb_sparse::{Assembly, Pencil};
 
 type Point = [f64; 3];
 

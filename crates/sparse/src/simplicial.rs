@@ -11,7 +11,7 @@ use faer::sparse::linalg::cholesky::{
 };
 use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
 
-use crate::factor::FactorError;
+use crate::error::FactorError;
 
 /// Order and pattern of the factor.
 pub struct Pattern {

@@ -1,22 +1,15 @@
-//! Lowest natural modes, K φ = ω² M φ, by shift-invert Lanczos in the inner product of M with full reorthogonalisation.
+//! Lowest natural modes, K φ = ω² M φ, none missing.
 //!
-//! ```text
-//! A = K⁻¹M,   v_iᵀ M v_j = δ_ij
-//! A v_j = Σ_{i ≤ j+b} t_ij v_i                 every v_j in turn; what is left of A v_j becomes a new v
-//! T s = θ s   →   ω² = 1/θ,  φ = V s           residual ‖Aφ − θφ‖_M = ‖ rows of t beyond T times s ‖
-//! ```
-//!
-//! b start vectors run in a queue (a band Lanczos process), so that modes that come up to b times, as on a row of equal
-//! spans, are all met. Converged values are believed only when the count of eigenvalues below the last one, from the
-//! inertia of K − σM, agrees; otherwise fresh start vectors join. Everything is deterministic. (Grimes, Lewis & Simon,
-//! SIAM J. Matrix Anal. Appl. 15, 1994, 228–272.)
+//! b start vectors run in a queue ([`crate::lanczos`], one vector at a time), so that modes that come up to b times, as on
+//! a row of equal spans, are all met. Converged values are believed only when the count of eigenvalues below the last one,
+//! from the inertia of K − σM, agrees; otherwise fresh start vectors join. Everything is deterministic.
 
 use nalgebra::{DMatrix, SymmetricEigen};
 
 use crate::factor::Factor;
+use crate::lanczos::Lanczos;
+use crate::pencil::Pencil;
 use crate::random::Random;
-use crate::sparse::Pencil;
-use crate::vector::{add_scaled, dot};
 
 /// Modes, lowest first.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -53,119 +46,62 @@ const QUEUE: usize = 4;
 const TOLERANCE: f64 = 1e-11;
 /// What rounding leaves of the residual in any case, relative to the largest θ.
 const ROUNDING: f64 = 1e-14;
-/// A new vector shorter than this, relative to A v before the orthogonalisation, is rounding.
-const DEFLATION: f64 = 1e-12;
 
 /// The `count` lowest modes; `stiffness` is the factor of K.
 ///
 /// # Errors
 /// [`ModesError::TooMany`].
 pub fn lowest(pencil: &Pencil, stiffness: &Factor, count: usize) -> Result<Modes, ModesError> {
-    let mut lanczos = Lanczos::new(pencil, stiffness);
-    lanczos.invite(QUEUE);
+    let lanczos = Lanczos::new(pencil, stiffness, 1);
+    let mut search = Search { pencil, lanczos, random: Random::default() };
+    search.invite();
     let mut check_at = 2 * count + 2 * QUEUE;
     loop {
-        while lanczos.t.len() < check_at && lanczos.advance() {}
-        let complete = lanczos.t.len() < check_at;
-        if complete && lanczos.t.len() < count {
-            return Err(ModesError::TooMany { asked: count, available: lanczos.t.len() });
+        while search.lanczos.processed() < check_at && search.advance() {}
+        let available = search.lanczos.processed();
+        let complete = available < check_at;
+        if complete && available < count {
+            return Err(ModesError::TooMany { asked: count, available });
         }
-        if let Some(modes) = lanczos.converged(count, complete) {
+        if let Some(modes) = search.converged(count, complete) {
             return Ok(modes);
         }
         check_at += check_at / 4 + QUEUE;
     }
 }
 
-struct Lanczos<'a> {
+struct Search<'a> {
     pencil: &'a Pencil,
-    stiffness: &'a Factor,
-    /// v_j; the first `t.len()` are processed, the others wait.
-    basis: Vec<Vec<f64>>,
-    /// t_ij by columns j, over the basis as it was when v_j was processed.
-    t: Vec<Vec<f64>>,
+    lanczos: Lanczos<'a>,
     random: Random,
-    scratch: Vec<f64>,
 }
 
-impl<'a> Lanczos<'a> {
-    fn new(pencil: &'a Pencil, stiffness: &'a Factor) -> Self {
-        let scratch = vec![0.0; pencil.ndof()];
-        Self { pencil, stiffness, basis: Vec::new(), t: Vec::new(), random: Random::default(), scratch }
-    }
-
-    /// M x.
-    fn mass(&self, x: &[f64]) -> Vec<f64> {
-        let mut y = vec![0.0; x.len()];
-        self.pencil.add_mass(x, &mut y);
-        y
-    }
-
-    /// A x = K⁻¹ M x.
-    fn operator(&mut self, x: &[f64]) -> Vec<f64> {
-        let mut y = self.mass(x);
-        self.stiffness.solve_in_place(&mut y, &mut self.scratch);
-        y
-    }
-
+impl Search<'_> {
     /// Adds start vectors to the queue, as many as the space still has room for.
-    fn invite(&mut self, vectors: usize) {
-        for _ in 0..vectors {
+    fn invite(&mut self) {
+        for _ in 0..QUEUE {
             let x: Vec<f64> = (0..self.pencil.ndof()).map(|_| self.random.draw()).collect();
-            // One application of A takes out what has no mass.
-            let x = self.operator(&x);
-            self.admit(x);
+            self.lanczos.start_with_mass(&x);
         }
     }
 
-    /// Splits x into its part in the basis and a rest, which joins the basis; returns all coefficients.
-    fn admit(&mut self, mut x: Vec<f64>) -> Vec<f64> {
-        let mut coefficients = vec![0.0; self.basis.len()];
-        let before = dot(&x, &self.mass(&x)).max(0.0).sqrt();
-        // Twice is enough (Parlett, section 6.9).
-        for _ in 0..2 {
-            let mx = self.mass(&x);
-            let h: Vec<f64> = self.basis.iter().map(|v| dot(v, &mx)).collect();
-            for ((v, h), sum) in self.basis.iter().zip(&h).zip(&mut coefficients) {
-                add_scaled(-h, v, &mut x);
-                *sum += h;
-            }
-        }
-        let rest = dot(&x, &self.mass(&x)).max(0.0).sqrt();
-        if rest > DEFLATION * before && self.basis.len() < x.len() {
-            x.iter_mut().for_each(|x| *x /= rest);
-            self.basis.push(x);
-            coefficients.push(rest);
-        }
-        coefficients
-    }
-
-    /// Processes the next vector of the queue; false when the basis is complete.
+    /// Processes the next vector of the queue; false when the space is complete.
     fn advance(&mut self) -> bool {
-        if self.t.len() == self.basis.len() {
-            self.invite(QUEUE);
+        if self.lanczos.is_closed() {
+            self.invite();
         }
-        let Some(v) = self.basis.get(self.t.len()).cloned() else { return false };
-        let av = self.operator(&v);
-        let column = self.admit(av);
-        self.t.push(column);
-        true
+        self.lanczos.advance()
     }
 
     /// The modes, if all have converged and none is missing; otherwise new start vectors may have joined.
     fn converged(&mut self, count: usize, complete: bool) -> Option<Modes> {
-        let p = self.t.len();
-        let t = DMatrix::from_fn(p, p, |i, j| self.t[i.max(j)].get(i.min(j)).copied().unwrap_or(0.0));
-        let eigen = SymmetricEigen::new(t);
+        let p = self.lanczos.processed();
+        let eigen = SymmetricEigen::new(DMatrix::from_fn(p, p, |i, j| self.lanczos.projected(i, j)));
         let mut order: Vec<usize> = (0..p).collect();
         order.sort_by(|&a, &b| eigen.eigenvalues[b].total_cmp(&eigen.eigenvalues[a]));
         let omega2: Vec<f64> = order.iter().map(|&j| 1.0 / eigen.eigenvalues[j]).collect();
         if !complete {
-            let residual = |&j: &usize| {
-                let s = eigen.eigenvectors.column(j);
-                let row = |i| self.t.iter().zip(s.iter()).map(|(t, s)| t.get(i).map_or(0.0, |t| t * s)).sum::<f64>();
-                (p..self.basis.len()).map(|i| row(i) * row(i)).sum::<f64>().sqrt()
-            };
+            let residual = |j: &usize| self.lanczos.residual(eigen.eigenvectors.column(*j).iter().copied());
             let tolerance = |j: &usize| TOLERANCE * eigen.eigenvalues[*j] + ROUNDING * eigen.eigenvalues[order[0]];
             if order[..count].iter().any(|j| residual(j) > tolerance(j)) {
                 return None;
@@ -174,15 +110,12 @@ impl<'a> Lanczos<'a> {
             let last = (count - 1..p - 1).find(|&j| omega2[j + 1] > 1.001 * omega2[j])?;
             let sigma = (omega2[last] * omega2[last + 1]).sqrt();
             if self.pencil.count_below(sigma) != Some(last + 1) {
-                self.invite(QUEUE);
+                self.invite();
                 return None;
             }
         }
         let shapes = order[..count].iter().map(|&j| {
-            let mut shape = vec![0.0; self.pencil.ndof()];
-            for (v, s) in self.basis.iter().zip(eigen.eigenvectors.column(j).iter()) {
-                add_scaled(*s, v, &mut shape);
-            }
+            let mut shape = self.lanczos.combine(eigen.eigenvectors.column(j).iter().copied());
             let largest = shape.iter().fold(0.0_f64, |m, x| if x.abs() > m.abs() { *x } else { m });
             shape.iter_mut().for_each(|x| *x *= largest.signum());
             shape
@@ -195,7 +128,8 @@ impl<'a> Lanczos<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::sparse::Assembly;
+    use crate::assembly::Assembly;
+    use crate::vector::dot;
 
     /// `copies` separate chains of `n` unit springs and masses, fixed at the left.
     fn chains(copies: u32, n: u32, massless: bool) -> Pencil {

@@ -1,8 +1,8 @@
 //! The factor by panels: against products with the matrix, and its partial sweeps against whole ones.
 
-use ttb_dynamics::factor::Layout;
-use ttb_dynamics::sparse::{Assembly, Pencil};
-use ttb_dynamics::sweeps::{LANES, Which};
+use ttb_sparse::Layout;
+use ttb_sparse::sweeps::{LANES, Which};
+use ttb_sparse::{Assembly, Pencil};
 
 const LONG: usize = 90;
 const WIDE: usize = 13;
@@ -115,7 +115,7 @@ fn modes_of_a_large_model_are_modes_and_none_is_missing() {
     let pencil = lattice(vec![], true);
     let factor = pencil.factor(1.0, 0.0, 0.0).unwrap();
     // `lowest` itself compares with the count of negative pivots.
-    let modes = ttb_dynamics::modes::lowest(&pencil, &factor, 5).unwrap();
+    let modes = ttb_sparse::modes::lowest(&pencil, &factor, 5).unwrap();
     for (w2, shape) in modes.omega2.iter().zip(&modes.shapes) {
         let (mut residual, mut mass) = (vec![0.0; shape.len()], vec![0.0; shape.len()]);
         pencil.add_stiffness(shape, &mut residual);
