@@ -15,8 +15,9 @@ use ttb_scenario::types::{Freedom, Model};
 use ttb_sparse::vector::dot;
 
 use super::diagonal::Diagonal;
-use super::elements::{self, Kind, Placed, coordinates};
+use super::elements::{self, Placed, coordinates};
 use super::freedoms::{Fate, Freedoms, position};
+use super::kind::Kind;
 use super::report::{Reaction, Reactions, SelfCheck};
 
 /// What solving with K, numbered as [`super::assemble`] numbers, gave.

@@ -13,6 +13,7 @@ mod carriers;
 mod diagonal;
 mod elements;
 mod freedoms;
+mod kind;
 mod report;
 mod solids;
 mod tied;
@@ -25,8 +26,9 @@ use ttb_sparse::Assembly;
 use crate::assembled::{Assembled, Monitor};
 use crate::deck::Row;
 use diagonal::Diagonal;
-use elements::{Kind, Placed};
+use elements::Placed;
 use freedoms::Freedoms;
+use kind::Kind;
 use track::Track;
 
 pub use audit::{Statics, self_check};

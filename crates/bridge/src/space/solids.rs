@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use ttb_elements::{Beam3, BeamSection, Plate, Shell3, Shell4, Truss3};
 use ttb_scenario::types::{Beams, Freedom, LineSection, Material, Model, ShellSection, Trusses};
 
-use super::elements::Kind;
+use super::kind::Kind;
 
 /// Materials and sections by name.
 #[derive(Clone)]

@@ -13,8 +13,9 @@ use ttb_scenario::space::{Index, motion};
 use ttb_scenario::types::{Freedom, Model};
 
 use super::carriers::{Carrier, EDGE, Of, axis, carriers};
-use super::elements::{Kind, coordinates};
+use super::elements::coordinates;
 use super::freedoms::Weights;
+use super::kind::Kind;
 use super::solids::{self, Sections};
 
 /// Down.
