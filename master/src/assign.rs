@@ -3,7 +3,8 @@
 use std::ops::Range;
 
 use ttb_coupling::Stations;
-use ttb_fmi2::import::{FmuInstance, Linear, ModelDescription, VariableType};
+use ttb_fmi::description::{ModelDescription, VariableType};
+use ttb_fmi::{FmuInstance, Linear};
 
 use crate::error::Error;
 use crate::map::{Even, Map, Places, Read, Series};

@@ -6,8 +6,8 @@ use std::path::Path;
 use ttb_contract::Subsystem;
 use ttb_coupling::probe::Probe;
 use ttb_coupling::{Adapted, Coupling, Joined, Settings};
-use ttb_fmi2::import::{Another, Fmu, FmuError, FmuInstance, FmuSubsystem};
-use ttb_fmi2::isolate::Isolation;
+use ttb_fmi::isolate::Isolation;
+use ttb_fmi::{Another, Fmu, FmuError, FmuInstance, FmuSubsystem};
 use ttb_scenario::Checked;
 use ttb_scenario::types::Send;
 

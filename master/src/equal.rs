@@ -2,7 +2,8 @@
 
 use std::collections::HashSet;
 
-use ttb_fmi2::import::{FmuInstance, Linear, ModelDescription, VariableType};
+use ttb_fmi::description::{ModelDescription, VariableType};
+use ttb_fmi::{FmuInstance, Linear};
 
 use crate::assign::{Assigned, Ends, declared};
 use crate::error::Error;

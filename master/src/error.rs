@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use ttb_coupling::IterationError;
-use ttb_fmi2::import::FmuError;
+use ttb_fmi::FmuError;
 use ttb_scenario::Problems;
 
 /// Why a command failed.

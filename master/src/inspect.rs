@@ -1,6 +1,10 @@
 //! `ttb inspect`: what an FMU offers, and how it might be mapped onto a bridge of ours. No code of the FMU is run.
 
-use ttb_fmi2::import::{FmuError, ModelDescription, Unit, VariableType, platforms, read_description, unpack};
+use ttb_fmi::FmuError;
+use ttb_fmi::archive::unpack;
+use ttb_fmi::description::{ModelDescription, Unit, VariableType};
+use ttb_fmi::library::platforms;
+use ttb_fmi2::import::read_description;
 
 use crate::cli::Inspect;
 use crate::error::Error;

@@ -4,8 +4,8 @@ use std::path::Path;
 use std::sync::Arc;
 use std::time::Duration;
 
-use ttb_fmi2::import::{Fmu, FmuError};
-use ttb_fmi2::isolate::{AVAILABLE, Isolation};
+use ttb_fmi::isolate::{AVAILABLE, Isolation};
+use ttb_fmi::{Fmu, FmuError};
 
 use crate::cli::{Isolate, Run};
 use crate::error::Error;
@@ -77,7 +77,7 @@ fn given(arguments: &Run) -> [bool; 2] {
 /// Opens an FMU for this process or one of its own.
 pub fn open(path: &Path, isolation: Option<&Isolation>) -> Result<Fmu, FmuError> {
     match isolation {
-        Some(isolation) => Fmu::open_isolated(path, isolation),
-        None => Fmu::open(path),
+        Some(isolation) => ttb_fmi2::import::open_isolated(path, isolation),
+        None => ttb_fmi2::import::open(path),
     }
 }

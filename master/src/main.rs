@@ -43,7 +43,7 @@ use std::io::Write;
 use clap::Parser;
 use cli::{Cli, Command};
 use error::Error;
-use ttb_fmi2::import::leave;
+use ttb_fmi::leave;
 
 fn main() {
     let code = match execute(Cli::parse().command) {
@@ -88,7 +88,7 @@ fn execute(command: Command) -> Result<(), Error> {
         Command::Generate(arguments) => generate::generate(&arguments),
         Command::Host { preload } => {
             preload::load(&preload)?;
-            ttb_fmi2::isolate::host().map_err(Error::Input)
+            ttb_fmi2::import::host().map_err(Error::Input)
         }
         Command::InspectBridge { file } => inspect_bridge::inspect(&file),
         Command::Schema { bridge } => {

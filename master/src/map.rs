@@ -24,7 +24,7 @@ use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
 use ttb_coupling::Shape;
-use ttb_fmi2::import::ModelDescription;
+use ttb_fmi::description::ModelDescription;
 
 use crate::error::Error;
 

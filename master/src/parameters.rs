@@ -2,7 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use ttb_fmi2::import::{FmuInstance, ScalarVariable, VariableType};
+use ttb_fmi::FmuInstance;
+use ttb_fmi::description::{ScalarVariable, VariableType};
 use ttb_scenario::nearest;
 
 use crate::error::Error;

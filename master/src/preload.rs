@@ -3,7 +3,7 @@
 use std::ffi::OsString;
 use std::path::PathBuf;
 
-use ttb_fmi2::import::preload;
+use ttb_fmi::library::preload;
 
 use crate::error::Error;
 

@@ -12,7 +12,7 @@ use ttb_contract::names::parse_support;
 use ttb_contract::{Signal, Subsystem};
 use ttb_coupling::StepInfo;
 use ttb_coupling::iteration::Outcome;
-use ttb_fmi2::import::FmuSubsystem;
+use ttb_fmi::FmuSubsystem;
 
 use crate::connect::BridgeSide;
 use crate::error::Error;

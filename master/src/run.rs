@@ -8,7 +8,7 @@ use std::time::Instant;
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use ttb_coupling::run::{TimeAxis, run as run_steps};
-use ttb_fmi2::import::{FmuSubsystem, leave};
+use ttb_fmi::{FmuSubsystem, leave};
 
 use crate::auto;
 use crate::build;

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use ttb_fmi2::import::{ModelDescription, ScalarVariable};
+use ttb_fmi::description::{ModelDescription, ScalarVariable};
 
 use crate::map::INDEX;
 

@@ -5,7 +5,8 @@ use std::path::Path;
 
 use ttb_coupling::IterationError;
 use ttb_coupling::run::{TimeAxis, run as run_steps};
-use ttb_fmi2::import::{FmuSubsystem, VariableType};
+use ttb_fmi::FmuSubsystem;
+use ttb_fmi::description::VariableType;
 use ttb_scenario::Checked;
 use ttb_scenario::step::Steps;
 use ttb_scenario::travel::distance;

@@ -8,8 +8,9 @@ use std::time::{Duration, Instant};
 
 use trivial::{N, pack};
 use ttb_contract::Subsystem;
-use ttb_fmi2::import::{Fmu, FmuSubsystem};
-use ttb_fmi2::isolate::{Isolation, host};
+use ttb_fmi::FmuSubsystem;
+use ttb_fmi::isolate::Isolation;
+use ttb_fmi2::import::host;
 
 const SWEEPS: usize = 5_000;
 const ROUNDS: usize = 9;
@@ -29,7 +30,8 @@ fn main() {
     let (forces, motions) = (names("f"), names("d"));
     let make = |name: &str, inputs: &[String], outputs: &[String], gain: &str, isolated: bool| {
         let fmu = pack(folder.path(), name, inputs, outputs, gain);
-        let fmu = if isolated { Fmu::open_isolated(&fmu, &isolation) } else { Fmu::open(&fmu) };
+        let fmu =
+            if isolated { ttb_fmi2::import::open_isolated(&fmu, &isolation) } else { ttb_fmi2::import::open(&fmu) };
         let mut instance = fmu.and_then(|fmu| fmu.instantiate(name, false)).expect("trivial FMU");
         instance.setup_experiment(0.0, None).and_then(|()| instance.enter_initialization()).expect("initialization");
         let mut fmu = FmuSubsystem::new(instance, inputs, outputs).expect("names");

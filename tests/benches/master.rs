@@ -8,7 +8,7 @@ use std::time::Instant;
 use ttb_coupling::iteration::{OnFailure, Settings};
 use ttb_coupling::predictor::Predictor;
 use ttb_coupling::{Coupling, Method};
-use ttb_fmi2::import::{Fmu, FmuSubsystem};
+use ttb_fmi::FmuSubsystem;
 
 use trivial::{N, pack};
 
@@ -21,7 +21,8 @@ fn main() {
     let (forces, motions) = (names("f"), names("d"));
     let make = |name: &str, inputs: &[String], outputs: &[String], gain: &str| {
         let fmu = pack(folder.path(), name, inputs, outputs, gain);
-        let mut instance = Fmu::open(&fmu).and_then(|fmu| fmu.instantiate(name, false)).expect("trivial FMU");
+        let mut instance =
+            ttb_fmi2::import::open(&fmu).and_then(|fmu| fmu.instantiate(name, false)).expect("trivial FMU");
         instance.setup_experiment(0.0, None).and_then(|()| instance.enter_initialization()).expect("initialization");
         FmuSubsystem::new(instance, inputs, outputs).expect("names")
     };

@@ -2,6 +2,7 @@
 #![allow(non_camel_case_types)]
 
 use std::ffi::{c_char, c_int, c_void};
+pub use ttb_fmi::Status;
 
 /// An instance, opaque to the environment.
 pub type fmi2Component = *mut c_void;
@@ -48,44 +49,6 @@ pub mod status_kind {
     pub const LAST_SUCCESSFUL_TIME: fmi2StatusKind = 2;
     /// Whether the FMU wants to end the simulation.
     pub const TERMINATED: fmi2StatusKind = 3;
-}
-
-/// What a call answered.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-#[repr(i32)]
-pub enum Status {
-    /// Done.
-    Ok = 0,
-    /// Done, but look at the log.
-    Warning = 1,
-    /// Not done; the caller may try otherwise.
-    Discard = 2,
-    /// Failed; only a restored state or a reset helps this instance.
-    Error = 3,
-    /// Failed for all instances of the FMU.
-    Fatal = 4,
-    /// Still computing.
-    Pending = 5,
-}
-
-impl Status {
-    /// The status behind a C value; a value outside the standard counts as [`Status::Fatal`].
-    pub fn from_c(status: fmi2Status) -> Self {
-        match status {
-            0 => Self::Ok,
-            1 => Self::Warning,
-            2 => Self::Discard,
-            3 => Self::Error,
-            5 => Self::Pending,
-            _ => Self::Fatal,
-        }
-    }
-}
-
-impl std::fmt::Display for Status {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(f, "fmi2{self:?}")
-    }
 }
 
 /// `fmi2CallbackLogger`: variadic like printf.

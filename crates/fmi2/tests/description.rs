@@ -1,7 +1,8 @@
 //! Reading modelDescription.xml tolerantly, and refusing what cannot be used.
 #![cfg(feature = "import")]
 
-use ttb_fmi2::import::{DescriptionError, VariableType, read_description};
+use ttb_fmi::description::{DescriptionError, VariableType};
+use ttb_fmi2::import::read_description;
 
 fn document(inside: &str) -> String {
     format!("<fmiModelDescription fmiVersion=\"2.0\" modelName=\"m\" guid=\"g\">{inside}</fmiModelDescription>")

@@ -8,7 +8,7 @@ use counting::allocations;
 use foreign::*;
 use std::time::Instant;
 use ttb_contract::Subsystem;
-use ttb_fmi2::import::{Fmu, FmuSubsystem};
+use ttb_fmi::FmuSubsystem;
 use ttb_model_description::package::{LIBRARY_EXTENSION, PLATFORM};
 
 const N: usize = 1000;
@@ -18,7 +18,7 @@ fn a_sweep_over_1000_couplings_allocates_nothing_and_costs_microseconds() {
     let binary = format!("binaries/{PLATFORM}/Foreign.{LIBRARY_EXTENSION}");
     let made = fmu(&[("modelDescription.xml", description(N, CAPABLE).as_bytes()), (&binary, &compile(N, false))]);
     let names = |what: &str| (1..=N).map(|i| format!("{what}[{i}]")).collect::<Vec<_>>();
-    let mut instance = Fmu::open(&made.path).unwrap().instantiate("f", false).unwrap();
+    let mut instance = ttb_fmi2::import::open(&made.path).unwrap().instantiate("f", false).unwrap();
     instance.enter_initialization().unwrap();
     let mut s = FmuSubsystem::new(instance, &names("in"), &names("out")).unwrap();
     s.exit_initialization().unwrap();

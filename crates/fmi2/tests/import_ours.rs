@@ -11,7 +11,7 @@ use foreign::*;
 use oscillator::{Oscillator, vr};
 use std::path::Path;
 use ttb_contract::{InProcess, Instance, Model, Subsystem};
-use ttb_fmi2::import::{Fmu, FmuInstance, FmuSubsystem};
+use ttb_fmi::{Fmu, FmuInstance, FmuSubsystem};
 use ttb_model_description::{About, Contents, pack};
 
 /// Packs the example library with a mass of 2 kg.
@@ -32,7 +32,7 @@ fn packed(folder: &Path) -> (Fmu, Oscillator) {
     };
     let path = folder.join("Oscillator.fmu");
     pack(&contents, &path).unwrap();
-    (Fmu::open(&path).unwrap(), model)
+    (ttb_fmi2::import::open(&path).unwrap(), model)
 }
 
 fn coupled(instance: FmuInstance) -> FmuSubsystem {
@@ -161,7 +161,7 @@ fn another_binary_than_the_description_belongs_to_is_refused() {
         ("binaries/linux64/Oscillator.so", &library),
         ("resources/mass.txt", b"2"),
     ]);
-    let error = Fmu::open(&made.path).unwrap().instantiate("x", false).err().unwrap().to_string();
+    let error = ttb_fmi2::import::open(&made.path).unwrap().instantiate("x", false).err().unwrap().to_string();
     assert!(error.contains("{another}") && error.contains(&fmu.description().guid), "{error}");
 }
 

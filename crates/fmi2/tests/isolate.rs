@@ -8,8 +8,8 @@ use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
 use ttb_contract::Subsystem;
-use ttb_fmi2::import::{Fmu, FmuError, FmuInstance, FmuSubsystem};
-use ttb_fmi2::isolate::Isolation;
+use ttb_fmi::isolate::Isolation;
+use ttb_fmi::{Fmu, FmuError, FmuInstance, FmuSubsystem};
 
 type Lines = Arc<Mutex<Vec<String>>>;
 
@@ -54,7 +54,7 @@ fn hosts() -> Vec<PathBuf> {
 
 fn isolated(made: &Made, timeout: f64) -> (Fmu, Lines) {
     let (isolation, lines) = isolation(timeout);
-    (Fmu::open_isolated(&made.path, &isolation).unwrap(), lines)
+    (ttb_fmi2::import::open_isolated(&made.path, &isolation).unwrap(), lines)
 }
 
 /// `foreign.c` compiled once for all tests.
@@ -69,7 +69,7 @@ fn capable() -> Made {
 fn every_call_answers_as_in_this_process() {
     let made = capable();
     let apart = isolated(&made, 10.0).0;
-    let here = Fmu::open(&made.path).unwrap();
+    let here = ttb_fmi2::import::open(&made.path).unwrap();
     let answers = [&here, &apart].map(|fmu| {
         let mut i = begin(fmu, "warning").unwrap();
         let mut said = vec![format!("{} {} {}", i.can_restore(), i.can_interpolate(), i.can_derive())];
@@ -286,7 +286,7 @@ fn outputs_that_come_with_a_step_are_those_after_it() {
         }
         said
     };
-    assert_eq!(run(&Fmu::open(&made.path).unwrap()), run(&isolated(&made, 10.0).0));
+    assert_eq!(run(&ttb_fmi2::import::open(&made.path).unwrap()), run(&isolated(&made, 10.0).0));
     // A crash while they are read is not the step's.
     let mut i = begin(&isolated(&made, 10.0).0, "crash-on-get").unwrap();
     i.do_step(0.0, 0.25, true).unwrap();
@@ -303,6 +303,7 @@ fn an_fmu_that_cannot_be_loaded_says_why() {
     assert!(error.contains("cannot be loaded") && error.contains("made.fmu"), "{error}");
     let (mut isolation, _) = isolation(10.0);
     isolation.program = "/nowhere/host".into();
-    let error = Fmu::open_isolated(&capable().path, &isolation).unwrap().instantiate("x", false).err().unwrap();
+    let error =
+        ttb_fmi2::import::open_isolated(&capable().path, &isolation).unwrap().instantiate("x", false).err().unwrap();
     assert!(error.to_string().starts_with("x: its process cannot be started (/nowhere/host): "), "{error}");
 }

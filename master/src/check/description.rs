@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use ttb_fmi2::import::{ModelDescription, ScalarVariable, VariableType};
+use ttb_fmi::description::{ModelDescription, ScalarVariable, VariableType};
 
 use super::finding::Finding;
 

@@ -1,6 +1,7 @@
 //! An instance driven through initialization and steps by inputs that move.
 
-use ttb_fmi2::import::{ModelDescription, ScalarVariable, VariableType, file_uri};
+use ttb_fmi::description::{ModelDescription, ScalarVariable, VariableType};
+use ttb_fmi::file_uri;
 use ttb_fmi2::probe::{Birth, LogEntry, Probe, Probed, State};
 use ttb_fmi2::types::Status;
 
@@ -223,7 +224,9 @@ impl<'a> Drive<'a> {
             Status::Pending => "pending",
         };
         let function = call.split(' ').next().unwrap_or(call);
-        Err(Finding::error(name, format!("{function} answers {status}")).at(call).seen(last(&self.instance.take_log())))
+        Err(Finding::error(name, format!("{function} answers fmi2{status}"))
+            .at(call)
+            .seen(last(&self.instance.take_log())))
     }
 
     /// The largest difference between two runs beyond rounding: which output, and both values. `rounding` is relative to

@@ -1,6 +1,6 @@
 //! Loading, birth and end of an instance.
 
-use ttb_fmi2::import::file_uri;
+use ttb_fmi::file_uri;
 use ttb_fmi2::probe::{Birth, symbols as look_up};
 
 use super::drive::{Drive, last, open, reference};

@@ -20,7 +20,9 @@ use std::ffi::OsString;
 use std::path::Path;
 use std::time::Duration;
 
-use ttb_fmi2::import::{DescriptionError, library_path, read_description, unpack};
+use ttb_fmi::archive::unpack;
+use ttb_fmi::description::DescriptionError;
+use ttb_fmi2::import::{library_path, read_description};
 
 use crate::cli::Check;
 use crate::error::Error;
@@ -90,7 +92,7 @@ fn findings(fmu: &Path, patience: Duration, preload: &[OsString]) -> Result<Vec<
 /// A description that cannot be used.
 fn unreadable(error: &DescriptionError) -> Finding {
     let name = match error {
-        DescriptionError::WrongVersion(_) => "fmi-version",
+        DescriptionError::WrongVersion { .. } => "fmi-version",
         DescriptionError::NoCoSimulation => "no-co-simulation",
         _ => "description",
     };

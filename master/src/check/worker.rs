@@ -6,7 +6,8 @@ use std::io::Write;
 use std::os::unix::fs::FileExt;
 use std::path::{Path, PathBuf};
 
-use ttb_fmi2::import::{ModelDescription, read_description};
+use ttb_fmi::description::ModelDescription;
+use ttb_fmi2::import::read_description;
 
 use super::finding::Finding;
 use super::{derivatives, instances, life, process, run, states, steps};

@@ -2,7 +2,9 @@
 
 use std::path::{Path, PathBuf};
 
-use ttb_fmi2::import::{ModelDescription, VariableType, read_description, unpack};
+use ttb_fmi::archive::unpack;
+use ttb_fmi::description::{ModelDescription, VariableType};
+use ttb_fmi2::import::read_description;
 use ttb_scenario::Checked;
 use ttb_ssp::{
     BaseUnit, Component, Connection, Connector, Content, EXTRA, Experiment, Kind, RESOURCES, Structure, System, Type,

@@ -5,9 +5,10 @@ use std::io::Read;
 use std::path::{Path, PathBuf};
 
 use sha2::{Digest, Sha256};
-use tempfile::TempDir;
-use ttb_fmi2::import::{Fmu, UnpackError, unpack};
-use ttb_fmi2::isolate::Isolation;
+use ttb_fmi::Fmu;
+use ttb_fmi::archive::{UnpackError, unpack};
+use ttb_fmi::isolate::Isolation;
+use ttb_fmi::temporary::Temporary;
 use ttb_ssp::{Report, STRUCTURE, Structure};
 
 use super::annotation::{self, Settings};
@@ -32,7 +33,7 @@ pub struct Opened {
     bridge: (String, PathBuf),
     assigned: Assigned,
     /// The archive's files.
-    _folder: TempDir,
+    _folder: Temporary,
 }
 
 /// Whether a file is meant to be a system structure: by its name.
@@ -86,7 +87,7 @@ impl Opened {
             output: settings.output,
         };
         if isolation.is_some() && isolated.train_track.is_none() {
-            fmus[train_track] = Fmu::open(&folder.path().join(&components[train_track].source))?;
+            fmus[train_track] = ttb_fmi2::import::open(&folder.path().join(&components[train_track].source))?;
         }
         let [first, second] = fmus;
         let bridge = &components[1 - train_track];

@@ -2,7 +2,7 @@
 
 use std::collections::HashSet;
 
-use ttb_fmi2::import::VariableType;
+use ttb_fmi::description::VariableType;
 use ttb_ssp::Report;
 
 use super::wiring::{Link, Side};

@@ -2,7 +2,8 @@
 
 use std::collections::HashMap;
 
-use ttb_fmi2::import::{Linear, ModelDescription, ScalarVariable, VariableType};
+use ttb_fmi::Linear;
+use ttb_fmi::description::{ModelDescription, ScalarVariable, VariableType};
 use ttb_ssp::{BaseUnit, Component, Connection, Connector, Kind, Report, Structure, Type};
 
 /// A component and what its FMU says.

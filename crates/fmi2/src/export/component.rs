@@ -1,27 +1,10 @@
 //! An instance of the FMU: what the environment's `fmi2Component` points to.
 
 use super::log::Log;
-use super::states::SavedState;
+use super::saved::{Progress, SavedState};
+use super::stage::Stage;
 use ttb_contract::instance::Phase;
 use ttb_contract::{Instance, Kind, Model};
-
-/// Where an instance is in its life (FMI 2.0, section 4.2.4); each is one bit, so that a call lists those it accepts.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[repr(u8)]
-pub enum Stage {
-    /// Fresh or reset.
-    Instantiated = 1,
-    /// In initialization mode.
-    Initialization = 2,
-    /// Between steps.
-    Stepping = 4,
-    /// A step failed: the physics may be half-way through it.
-    Failed = 8,
-    /// After `fmi2Terminate`.
-    Terminated = 16,
-    /// The code panicked: nothing in the model can be trusted.
-    Panicked = 32,
-}
 
 /// FMI's three families of numeric variables; all values are stored as `f64`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -32,19 +15,6 @@ pub enum Type {
     Integer,
     /// `fmi2Boolean`.
     Boolean,
-}
-
-/// The course of the simulation as the environment set it; saved and restored with an FMU state.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Progress {
-    /// Start time in s.
-    pub start: f64,
-    /// Stop time in s, where the environment defined one.
-    pub stop: Option<f64>,
-    /// End of the last successful step in s.
-    pub time: f64,
-    /// After `fmi2Terminate`.
-    pub terminated: bool,
 }
 
 /// One instance.

@@ -1,6 +1,7 @@
 //! What stands between the environment and the model at every call.
 
-use super::component::{Component, Stage};
+use super::component::Component;
+use super::stage::Stage;
 use crate::types::{Status, fmi2Component, fmi2Status};
 use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -14,13 +15,6 @@ pub struct Call {
     /// Bits of [`Stage`].
     pub allowed: u8,
 }
-
-/// Before, in and after initialization, between steps.
-pub const ALIVE: u8 = Stage::Instantiated as u8 | Stage::Initialization as u8 | Stage::Stepping as u8;
-/// Also with the last step failed or the simulation terminated: reading harms nobody.
-pub const READABLE: u8 = ALIVE | Stage::Failed as u8 | Stage::Terminated as u8;
-/// Also after a panic: what puts an instance back on its feet, or takes it away.
-pub const ALWAYS: u8 = READABLE | Stage::Panicked as u8;
 
 /// What a call hands back: a status, or why it was refused.
 pub type Answer = Result<Status, ModelError>;

@@ -1,14 +1,14 @@
-//! `fmi2Instantiate` and `fmi2FreeInstance`: birth and death of an instance.
+//! `fmi2Instantiate` and `fmi2FreeInstance`: the begin and the end of an instance.
 
 use super::component::Component;
 use super::guard::panic_text;
 use super::log::Log;
-use super::resources::resource_folder;
 use crate::types::*;
 use std::ffi::{CStr, CString};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::ptr;
 use ttb_contract::{Model, ModelError};
+use ttb_fmi::resources::resource_folder;
 use ttb_model_description::guid;
 
 /// Loads the model, compares GUIDs, makes an instance; null and a logged message when that fails.

@@ -1,7 +1,9 @@
 //! From instantiation to termination: the calls that move an instance through its life.
 
-use super::component::{Component, Progress, Stage};
-use super::guard::{ALWAYS, Call, DONE, READABLE, guard, refuse, slice};
+use super::component::Component;
+use super::guard::{Call, DONE, guard, refuse, slice};
+use super::saved::Progress;
+use super::stage::{ALWAYS, READABLE, Stage};
 use crate::types::*;
 use std::ffi::CStr;
 use ttb_contract::Model;

@@ -1,20 +1,14 @@
 //! FMU states: saved, restored, freed, serialized.
 //!
 //! The handle of a state is the address of its box, but it is only ever *compared*, never followed: a stale or foreign
-//! handle is refused instead of read. A state holds dynamic state, inputs and the course of the simulation; factorised
-//! matrices are shared with the model.
+//! handle is refused instead of read. What a state holds: [`super::saved`].
 
-use super::component::{Component, Progress, Stage};
-use super::guard::{ALIVE, ALWAYS, Call, DONE, READABLE, guard, place, refuse, slice, slice_mut};
+use super::component::Component;
+use super::guard::{Call, DONE, guard, place, refuse, slice, slice_mut};
+use super::saved::{Progress, SavedState};
+use super::stage::{ALIVE, ALWAYS, READABLE, Stage};
 use crate::types::*;
-use ttb_contract::Snapshot;
 use ttb_contract::{Model, ModelError};
-
-/// A saved instance.
-pub struct SavedState<M: Model> {
-    snapshot: Snapshot<M>,
-    progress: Progress,
-}
 
 /// Mark and version of the serialized form; the total length in bytes (u64) follows, then the GUID.
 const MARK: &[u8; 8] = b"ttbfmu01";

@@ -1,7 +1,8 @@
 //! `fmi2DoStep` and the questions about it.
 
-use super::component::{Component, Stage};
-use super::guard::{Call, DONE, READABLE, guard, place, refuse};
+use super::component::Component;
+use super::guard::{Call, DONE, guard, place, refuse};
+use super::stage::{READABLE, Stage};
 use crate::types::*;
 use ttb_contract::Model;
 

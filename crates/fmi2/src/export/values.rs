@@ -3,7 +3,8 @@
 //! Reals are the hot path: one pass over the types, one copy, no allocation.
 
 use super::component::{Component, Type};
-use super::guard::{ALIVE, Answer, Call, DONE, READABLE, guard, refuse, slice, slice_mut};
+use super::guard::{Answer, Call, DONE, guard, refuse, slice, slice_mut};
+use super::stage::{ALIVE, READABLE, Stage};
 use crate::types::*;
 use ttb_contract::{Model, ModelError};
 
@@ -229,7 +230,7 @@ pub unsafe fn directional_derivative<M: Model>(
     seed: *const fmi2Real,
     out: *mut fmi2Real,
 ) -> fmi2Status {
-    let allowed = ALIVE & !(super::component::Stage::Instantiated as u8);
+    let allowed = ALIVE & !(Stage::Instantiated as u8);
     let work = |c: &mut Component<M>| {
         // SAFETY: by contract.
         let (unknown, known) = unsafe { (slice(unknown, n_unknown)?, slice(known, n_known)?) };

@@ -1,28 +1,24 @@
 //! An instance in this process: every verb is the call of a C function.
 
-use super::fmu::{Loaded, file_uri};
-use super::library::Functions;
-use super::messages::{LOGGER, LogTarget};
-use super::slave::{Answer, Handle, Optional, Slave};
+use super::functions::Functions;
+use super::logger::{Environment, LOGGER};
 use crate::types::*;
-use std::any::Any;
 use std::ffi::{CStr, CString, c_void};
+use std::path::Path;
 use std::ptr;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
+use ttb_fmi::log::LogTarget;
+use ttb_fmi::slave::{Answer, Call, Handle, Slave};
 
 /// A living instance. [`Slave::free_instance`] frees it; without that it leaks, which fmi2Fatal demands.
-pub(crate) struct Local {
+pub struct Local {
     component: fmi2Component,
-    /// FMUs may keep the pointer they were given, so the struct stays where it is.
-    _callbacks: Box<fmi2CallbackFunctions>,
-    _log: Arc<dyn Any + Send + Sync>,
-    /// Last, so that the library goes last.
-    loaded: Arc<Loaded>,
+    functions: Arc<Functions>,
 }
 
 // SAFETY: an instance may be used from any thread, by one at a time (FMI 2.0, section 2.1.1): `&mut self` sees to the
-// latter. The log target is Sync, the callbacks struct is never written.
+// latter.
 unsafe impl Send for Local {}
 
 unsafe extern "C" {
@@ -32,47 +28,49 @@ unsafe extern "C" {
 
 impl Local {
     /// `fmi2Instantiate`, and how long it took; nothing if the FMU gives no instance.
-    pub fn new<L: LogTarget>(
+    ///
+    /// Callbacks and their environment, some hundred bytes, are never freed: a thread of the FMU may log at any time, also
+    /// after `fmi2FreeInstance`, and the more so after fmi2Fatal.
+    pub fn new(
         name: &str,
         guid: &str,
-        loaded: Arc<Loaded>,
-        log: Arc<L>,
+        folder: &Path,
+        functions: Arc<Functions>,
+        log: Arc<dyn LogTarget>,
         logging: bool,
     ) -> (Option<Self>, Duration) {
-        let callbacks = Box::new(fmi2CallbackFunctions {
+        let environment: &'static Environment = Box::leak(Box::new(Environment::new(log)));
+        let callbacks: &'static fmi2CallbackFunctions = Box::leak(Box::new(fmi2CallbackFunctions {
             logger: Some(LOGGER),
             allocate_memory: Some(calloc),
             free_memory: Some(free),
             step_finished: None,
-            component_environment: Arc::as_ptr(&log).cast_mut().cast(),
-        });
+            component_environment: ptr::from_ref(environment).cast_mut().cast(),
+        }));
         let name = CString::new(name).unwrap_or_default();
         let guid = CString::new(guid).unwrap_or_default();
-        let resources = CString::new(file_uri(&loaded.folder.path().join("resources"))).unwrap_or_default();
+        let resources = CString::new(ttb_fmi::file_uri(&folder.join("resources"))).unwrap_or_default();
         let begin = Instant::now();
-        // SAFETY: the strings and, behind the pointer, the callbacks are valid; the latter and the log outlive the instance.
+        // SAFETY: the strings are valid; the callbacks and what they lead to are so for ever.
         let component = unsafe {
-            (loaded.functions.instantiate)(
+            (functions.instantiate)(
                 name.as_ptr(),
                 FMI2_CO_SIMULATION,
                 guid.as_ptr(),
                 resources.as_ptr(),
-                &raw const *callbacks,
+                callbacks,
                 FMI2_FALSE,
                 fmi2Boolean::from(logging),
             )
         };
         let time = begin.elapsed();
-        if component.is_null() {
-            return (None, time);
-        }
-        (Some(Self { component, _callbacks: callbacks, _log: log, loaded }), time)
+        ((!component.is_null()).then_some(Self { component, functions }), time)
     }
 
     /// Makes a call and takes its time.
     fn call(&self, work: impl FnOnce(&Functions, fmi2Component) -> fmi2Status) -> Answer {
         let begin = Instant::now();
-        let status = work(&self.loaded.functions, self.component);
+        let status = work(&self.functions, self.component);
         Answer { status, time: begin.elapsed(), warnings: 0 }
     }
 }
@@ -80,7 +78,7 @@ impl Local {
 /// An optional function of an instance's library; without it the answer is an error.
 macro_rules! function {
     ($self:ident.$field:ident) => {
-        match $self.loaded.functions.$field {
+        match $self.functions.$field {
             Some(function) => function,
             None => return Answer::NOTHING,
         }
@@ -88,8 +86,8 @@ macro_rules! function {
 }
 
 impl Slave for Local {
-    fn has(&self, function: Optional) -> bool {
-        self.loaded.functions.optional() & function.bit() != 0
+    fn has(&self, function: Call) -> bool {
+        self.functions.optional & function.bit() != 0
     }
 
     fn setup_experiment(&mut self, start: f64, stop: Option<f64>) -> Answer {
@@ -119,8 +117,8 @@ impl Slave for Local {
         self.call(|f, c| unsafe { (f.reset)(c) })
     }
     fn free_instance(&mut self) {
-        // SAFETY: a live instance, by contract never used again; library, callbacks and log are still there.
-        unsafe { (self.loaded.functions.free_instance)(self.component) };
+        // SAFETY: a live instance, by contract never used again; library and callbacks are still there.
+        unsafe { (self.functions.free_instance)(self.component) };
     }
 
     fn get_real(&mut self, references: &[u32], values: &mut [f64]) -> Answer {

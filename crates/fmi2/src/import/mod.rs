@@ -1,38 +1,18 @@
-//! Other people's FMUs (and ours, which get no favours).
+//! FMUs of FMI 2.0, other people's and ours, which get no favours.
 //!
-//! [`Fmu::open`] unpacks an archive, reads its description tolerantly and loads its library; [`Fmu::instantiate`] gives
-//! an [`FmuInstance`], whose safe methods are the calls of FMI 2.0 co-simulation; [`FmuSubsystem`] couples it.
-//! Every failed call becomes an [`FmuError`] that names FMU, call and status and carries what the FMU logged meanwhile.
-//! On the way where all is well nothing is allocated, formatted or looked up: a call costs its own time and a clock read.
+//! [`VERSION`] is what [`ttb_fmi`] needs of this version: [`read_description`] reads its descriptions, [`functions`] binds its
+//! libraries, [`local`] calls them. [`open`] gives an [`Fmu`](ttb_fmi::Fmu), [`ttb_fmi::Fmu::instantiate`] an
+//! [`FmuInstance`](ttb_fmi::FmuInstance), whose safe methods are the calls of co-simulation;
+//! [`FmuSubsystem`](ttb_fmi::FmuSubsystem) couples it. Every failed call becomes an error that names FMU, call and status and
+//! carries what the FMU logged meanwhile. While all is well nothing is allocated, formatted or looked up: a call costs its
+//! own time and a clock read.
 
-mod access;
-mod decode;
-pub mod description;
-pub(crate) mod error;
-pub(crate) mod fmu;
-mod instance;
-mod leave;
-pub(crate) mod library;
-pub(crate) mod local;
-pub(crate) mod messages;
+pub(crate) mod functions;
+mod local;
+mod logger;
 mod reader;
-pub(crate) mod slave;
-mod state;
-mod subsystem;
-mod transform;
-mod unpack;
+mod version;
 
-pub use description::{Capabilities, ModelDescription, ScalarVariable, Unit, VariableType};
-pub use error::FmuError;
-pub use fmu::Fmu;
-pub use fmu::file_uri;
-pub use instance::{FmuInstance, Tally};
-pub use leave::leave;
-pub(crate) use library::{Functions, open_library};
-pub use library::{LibraryError, library_path, platforms, preload};
-pub use messages::Message;
-pub use reader::{DescriptionError, read_description};
-pub use state::StateSlot;
-pub use subsystem::{Another, FmuSubsystem};
-pub use transform::Linear;
-pub use unpack::{Limits, UnpackError, unpack, unpack_within};
+pub use functions::library_path;
+pub use reader::read_description;
+pub use version::{VERSION, host, open, open_isolated};

@@ -176,7 +176,7 @@ impl Probed<'_> {
         // SAFETY: a live instance and a state of it.
         let status = Status::from_c(unsafe { size_of(self.component, state.0, &raw mut size) });
         if status > Status::Warning {
-            return Err(format!("fmi2SerializedFMUstateSize answered {status}"));
+            return Err(format!("fmi2SerializedFMUstateSize answered fmi2{status}"));
         }
         let mut bytes = vec![0_u8; size];
         bytes.resize(size + GUARD, GUARD_BYTE);
@@ -185,7 +185,7 @@ impl Probed<'_> {
         let status = Status::from_c(unsafe { serialize(self.component, state.0, bytes.as_mut_ptr().cast(), size) });
         if status > Status::Warning {
             return Err(format!(
-                "fmi2SerializeFMUstate answered {status} for a buffer of the {size} bytes it asked for"
+                "fmi2SerializeFMUstate answered fmi2{status} for a buffer of the {size} bytes it asked for"
             ));
         }
         if let Some(over) = bytes[size..].iter().rposition(|byte| *byte != GUARD_BYTE) {

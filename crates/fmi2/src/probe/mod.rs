@@ -1,6 +1,6 @@
-//! Bare calls into an FMU under suspicion, for `ttb check`.
+//! Bare calls into an FMU, for `ttb check`.
 //!
-//! [`crate::import`] protects a run from an FMU: it turns answers into errors, keeps order, cleans up. A checker wants
+//! [`ttb_fmi::FmuInstance`] protects a run from an FMU: it turns answers into errors, keeps order, cleans up. A checker wants
 //! the opposite: any GUID and any resource URI, the status as it came, freeing at the wrong moment. So a [`Probe`]
 //! adds nothing to the calls but an announcement before each, from which the checker knows what was going on when a
 //! process died. Whatever is called here may crash or never return: call it in a process that may be lost.
@@ -13,12 +13,14 @@ pub use instance::{Birth, Probed, State};
 pub use log::LogEntry;
 pub use symbols::{Symbols, symbols};
 
-use crate::import::{LibraryError, ModelDescription};
+use crate::import::functions::Functions;
 use std::path::Path;
+use ttb_fmi::description::ModelDescription;
+use ttb_fmi::library::LibraryError;
 
 /// A loaded FMU.
 pub struct Probe {
-    functions: crate::import::Functions,
+    functions: Functions,
     announce: Box<dyn Fn(&str)>,
 }
 
@@ -33,7 +35,7 @@ impl Probe {
         announce: impl Fn(&str) + 'static,
     ) -> Result<Self, LibraryError> {
         announce("loading the library");
-        let functions = crate::import::Functions::load(folder, &description.co_simulation.model_identifier)?;
+        let functions = Functions::load(folder, &description.co_simulation.model_identifier)?;
         Ok(Self { functions, announce: Box::new(announce) })
     }
 
@@ -52,5 +54,13 @@ impl Probe {
     /// Whether there are directional derivatives.
     pub fn has_derivatives(&self) -> bool {
         self.functions.directional_derivative.is_some()
+    }
+}
+
+/// Unloads the library: a crash then is a finding too.
+impl Drop for Probe {
+    fn drop(&mut self) {
+        // SAFETY: the instances borrow the probe, so that none is left to call a function.
+        unsafe { self.functions.unload() };
     }
 }

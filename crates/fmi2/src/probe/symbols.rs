@@ -1,8 +1,9 @@
 //! Which of FMI 2.0's functions a library has.
 
-use crate::import::{LibraryError, library_path, open_library};
+use crate::import::library_path;
 use std::ffi::c_void;
 use std::path::Path;
+use ttb_fmi::library::{self, LibraryError};
 
 /// Functions no co-simulation master can do without.
 const REQUIRED: [&str; 11] = [
@@ -60,7 +61,7 @@ pub struct Symbols {
 /// # Errors
 /// There is no library, or it cannot be loaded.
 pub fn symbols(folder: &Path, model_identifier: &str) -> Result<Symbols, LibraryError> {
-    let library = open_library(&library_path(folder, model_identifier)?)?;
+    let library = library::open(&library_path(folder, model_identifier)?)?;
     // SAFETY: the address is only looked at, never called.
     let missing = |name: &&&'static str| unsafe { library.get::<*const c_void>(**name) }.is_err();
     let all = |names: &'static [&'static str]| names.iter().filter(missing).copied().collect::<Vec<_>>();

@@ -1,0 +1,30 @@
+//! A system without isolation.
+
+use super::settings::{Birth, Isolation};
+use crate::error::FmuError;
+use crate::log::Sink;
+use crate::slave::Slave;
+use crate::version::Version;
+use std::time::Duration;
+
+/// The program's answer when it is asked to be a host.
+///
+/// # Errors
+/// Always.
+pub fn host(_version: &'static Version) -> Result<(), String> {
+    Err("isolating FMUs is available on Linux only".into())
+}
+
+/// An isolated instance, which there is none of.
+///
+/// # Errors
+/// Always.
+pub(crate) fn start(
+    birth: &Birth,
+    _version: &'static Version,
+    _isolation: &Isolation,
+    _sink: &Sink,
+) -> Result<(Box<dyn Slave>, Duration), FmuError> {
+    let what = "FMUs can be isolated on Linux only".to_string();
+    Err(FmuError::Impossible { instance: birth.name.to_string(), what })
+}

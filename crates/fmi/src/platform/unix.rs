@@ -1,0 +1,96 @@
+//! Unix: paths are bytes, libraries are opened by `dlopen`, a process may end without its exit handlers.
+
+use std::ffi::OsStr;
+use std::os::unix::ffi::OsStrExt;
+use std::path::{Path, PathBuf};
+
+/// The path these bytes mean.
+pub fn path(bytes: &[u8]) -> &Path {
+    Path::new(OsStr::from_bytes(bytes))
+}
+
+/// A path as bytes.
+pub fn bytes(path: &Path) -> &[u8] {
+    path.as_os_str().as_bytes()
+}
+
+/// The library file that the code at an address was loaded from, by the memory map of this process (no library call beyond
+/// libc is needed for it). Nothing where the map cannot be read.
+pub fn library_of(code: usize) -> Option<PathBuf> {
+    let map = std::fs::read("/proc/self/maps").unwrap_or_default();
+    map.split(|b| *b == b'\n').find_map(|line| library_at(line, code))
+}
+
+/// The file of one line `from-to rwxp offset device inode   /path` of the map, if `code` lies in it.
+fn library_at(line: &[u8], code: usize) -> Option<PathBuf> {
+    let range = std::str::from_utf8(line.split(|b| *b == b' ').next()?).ok()?;
+    let (from, to) = range.split_once('-')?;
+    let (from, to) = (usize::from_str_radix(from, 16).ok()?, usize::from_str_radix(to, 16).ok()?);
+    let start = line.iter().position(|b| *b == b'/')?;
+    (from..to).contains(&code).then(|| path(&line[start..]).to_path_buf())
+}
+
+#[cfg(feature = "import")]
+pub use import::*;
+
+#[cfg(feature = "import")]
+mod import {
+    use libloading::os::unix::{RTLD_GLOBAL, RTLD_LOCAL, RTLD_NOW};
+    use std::ffi::{c_int, c_void};
+    use std::path::Path;
+
+    /// A loaded library; dropping it unloads it.
+    pub type Library = libloading::os::unix::Library;
+
+    /// Loads a library with all it needs at once; `global`: others find its symbols. The error is what the loader says.
+    pub(crate) fn open_library(path: &Path, global: bool) -> Result<Library, String> {
+        let scope = if global { RTLD_GLOBAL } else { RTLD_LOCAL };
+        // SAFETY: loading foreign code is what an importer is for: the user chose this library and trusts it to run.
+        let opened = unsafe { Library::open(Some(path), RTLD_NOW | scope) };
+        opened.map_err(|e| {
+            let message = std::error::Error::source(&e).map_or_else(|| e.to_string(), ToString::to_string);
+            message.strip_prefix(&format!("{}: ", path.display())).map_or(message.clone(), str::to_string)
+        })
+    }
+
+    unsafe extern "C" {
+        fn fflush(stream: *mut c_void) -> c_int;
+        fn _exit(code: c_int) -> !;
+        fn signal(number: c_int, handler: usize) -> usize;
+    }
+
+    /// A new folder that only this user may enter.
+    pub(crate) fn create_private_folder(path: &Path) -> std::io::Result<()> {
+        std::os::unix::fs::DirBuilderExt::mode(&mut std::fs::DirBuilder::new(), 0o700).create(path)
+    }
+
+    /// A group of its own keeps Ctrl-C from a process.
+    pub(crate) fn in_own_group(command: &mut std::process::Command) {
+        std::os::unix::process::CommandExt::process_group(command, 0);
+    }
+
+    /// All that the parent process writes into standard input until it is gone.
+    #[cfg(not(target_os = "linux"))]
+    pub(crate) fn read_until_parent_is_gone() -> std::io::Result<Vec<u8>> {
+        let mut read = Vec::new();
+        std::io::Read::read_to_end(&mut std::io::stdin(), &mut read).map(|_| read)
+    }
+
+    /// Ends the process without exit handlers and destructors of libraries; what C code has printed is written first.
+    pub(crate) fn exit_now(code: u8) -> ! {
+        // SAFETY: a null stream asks for all of C's; `_exit` takes any code and never returns.
+        unsafe {
+            fflush(std::ptr::null_mut());
+            _exit(c_int::from(code))
+        }
+    }
+
+    /// Makes this process deaf to what users and batch systems end programs with: SIGHUP, SIGINT, SIGTERM.
+    pub(crate) fn ignore_requests_to_end() {
+        const IGNORE: usize = 1;
+        for number in [1, 2, 15] {
+            // SAFETY: the numbers are those of POSIX, and SIG_IGN, which is 1, is a handler for each.
+            unsafe { signal(number, IGNORE) };
+        }
+    }
+}
