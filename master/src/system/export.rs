@@ -12,10 +12,11 @@ use ttb_ssp::{
 };
 
 use super::annotation::{Settings, write};
-use crate::build;
 use crate::cli::ExportSsp;
-use crate::connect::mean;
+use crate::connect::connected::mean;
 use crate::error::Error;
+use crate::prepare::auto::decided;
+use crate::prepare::fmus;
 
 const NAME: &str = "TrainTrackBridge";
 /// Names of the components, and their places in a drawing.
@@ -24,13 +25,13 @@ const COMPONENTS: [(&str, [f64; 4]); 2] =
 
 /// The command; returns the archive's path.
 pub fn export(arguments: &ExportSsp) -> Result<PathBuf, Error> {
-    let checked = build::decided(arguments.scenario.as_deref())?;
+    let checked = decided(arguments.scenario.as_deref())?;
     let text = match &arguments.scenario {
         Some(path) => std::fs::read_to_string(path).map_err(Error::io(path))?,
         None => ttb_scenario::default_scenario_text().to_string(),
     };
     let folder = tempfile::tempdir().map_err(Error::io(Path::new("temporary folder")))?;
-    let built = build::build(&checked, folder.path())?;
+    let built = fmus::build(&checked, folder.path())?;
     let descriptions = [describe(&built.train_track)?, describe(&built.bridge)?];
     let structure = structure(&checked, &descriptions);
     let path = arguments.output.clone().unwrap_or_else(|| {

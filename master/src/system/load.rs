@@ -14,11 +14,11 @@ use ttb_ssp::{Report, STRUCTURE, Structure};
 use super::annotation::{self, Settings};
 use super::roles;
 use super::wiring::{Link, links};
-use crate::assign::{Assigned, Ends};
-use crate::connect::{Bridge, Connected, couple, instantiate};
+use crate::connect::assign::{Assigned, Ends};
+use crate::connect::connected::{Bridge, Connected, couple, instantiate};
+use crate::connect::isolate::{self, Isolated};
 use crate::error::Error;
-use crate::isolate::{self, Isolated};
-use crate::job::{Job, Origin};
+use crate::results::job::{Job, Origin};
 
 /// A system structure that can be run.
 pub struct Opened {
@@ -34,11 +34,6 @@ pub struct Opened {
     assigned: Assigned,
     /// The archive's files.
     _folder: Temporary,
-}
-
-/// Whether a file is meant to be a system structure: by its name.
-pub fn is_system(path: &Path) -> bool {
-    path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("ssp"))
 }
 
 impl Opened {
@@ -96,7 +91,7 @@ impl Opened {
         Ok(Self { job, warnings, settings, train_track, bridge, assigned, _folder: folder })
     }
 
-    /// Both FMUs in initialization mode, connected; see [`crate::connect::connect`].
+    /// Both FMUs in initialization mode, connected; see [`crate::connect::connected::connect`].
     pub fn connect(&self, isolated: &Isolated, trusted: bool) -> Result<Connected, Error> {
         let (name, fmu) = &self.train_track;
         let none = BTreeMap::new();

@@ -7,4 +7,4 @@ mod roles;
 mod wiring;
 
 pub use export::export;
-pub use load::{Opened, is_system};
+pub use load::Opened;

@@ -1,0 +1,27 @@
+//! Arguments of `ttb accuracy`.
+
+use std::path::PathBuf;
+
+use clap::Args;
+
+use super::seconds::positive;
+
+/// Arguments of `ttb accuracy`.
+#[derive(Debug, Args)]
+pub struct Accuracy {
+    /// The scenario file [default: the bundled ICE 3 over a cable-stayed bridge]
+    pub scenario: Option<PathBuf>,
+    /// Folder for the results
+    #[arg(short, long, default_value = "ttb-accuracy")]
+    pub output: PathBuf,
+    /// Steps, multiples of the fine one
+    #[arg(long, value_name = "SECONDS", value_delimiter = ',', value_parser = positive,
+        default_values_t = [4e-3, 2e-3, 1e-3, 5e-4, 2e-4, 1e-4])]
+    pub steps: Vec<f64>,
+    /// Step of the fine run
+    #[arg(long, value_name = "SECONDS", value_parser = positive, default_value_t = 2e-5)]
+    pub reference: f64,
+    /// No progress
+    #[arg(short, long)]
+    pub quiet: bool,
+}

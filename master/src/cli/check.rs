@@ -1,0 +1,32 @@
+//! Arguments of `ttb check`.
+
+use std::path::PathBuf;
+
+use clap::Args;
+
+pub(super) const HELP: &str = "\
+One line a finding: error or warning, the rule's name, what is wrong, where, what was seen.
+Every test runs in a process of its own, so that a crash or a hang is a finding.
+Exit code 0 without findings, 1 with any.";
+
+/// Arguments of `ttb check`.
+#[derive(Debug, Args)]
+pub struct Check {
+    /// The FMU
+    pub fmu: PathBuf,
+    /// Print the findings as JSON
+    #[arg(long)]
+    pub json: bool,
+    /// Seconds a single call may take
+    #[arg(long, default_value_t = 30.0, value_name = "SECONDS")]
+    pub timeout: f64,
+    /// Load this library before the FMU, e.g. libpython3.11.so.1.0 for one made with PythonFMU
+    #[arg(long, value_name = "LIB")]
+    pub preload: Vec<PathBuf>,
+    /// Make one of the checks in this process
+    #[arg(long, hide = true)]
+    pub worker: Option<String>,
+    /// Where it reports
+    #[arg(long, hide = true)]
+    pub report: Option<PathBuf>,
+}

@@ -1,0 +1,104 @@
+//! The command line: one definition for parsing and help, a file of arguments a verb.
+
+mod accuracy;
+mod build;
+mod check;
+mod compare;
+mod export_ssp;
+mod generate;
+mod inspect;
+mod run;
+mod seconds;
+
+use std::path::PathBuf;
+
+use clap::{Parser, Subcommand};
+
+pub use accuracy::Accuracy;
+pub use build::Build;
+pub use check::Check;
+pub use compare::{Budget, Compare, Compared, Fine};
+pub use export_ssp::ExportSsp;
+pub use generate::{Generate, Generated};
+pub use inspect::Inspect;
+pub use run::{Isolate, Run};
+
+/// Train–track–bridge co-simulation.
+///
+/// A train with its track and a bridge are two FMUs (FMI 2.0 co-simulation); this program couples them by iterating the
+/// forces of the track's supports on the deck until both sides agree, at every time step.
+#[derive(Debug, Parser)]
+#[command(name = "ttb", version, max_term_width = 100, after_help = AFTER_HELP)]
+pub struct Cli {
+    /// What to do.
+    #[command(subcommand)]
+    pub command: Command,
+}
+
+const AFTER_HELP: &str = "\
+First steps:
+  ttb run                      an ICE 3 over a cable-stayed bridge, results in ttb-out/
+  ttb run examples/r1.json     a small published case
+  ttb check-scenario MY.json   every problem of a scenario at once
+
+Exit codes:
+    0  ok
+    1  ttb check has findings
+    2  bad input: every problem is listed
+    3  a step did not converge
+    4  an FMU failed
+    5  input or output failed
+  130  interrupted; results so far are kept";
+
+/// The commands.
+#[derive(Debug, Subcommand)]
+pub enum Command {
+    /// Run a scenario: build its FMUs, couple them, write results. Or run a system structure (.ssp)
+    #[command(after_help = run::HELP)]
+    Run(Run),
+    /// Only build TrainTrack.fmu and Bridge.fmu
+    Build(Build),
+    /// Write a scenario as a system structure (SSP 1.0): both FMUs, connections and coupling settings in one file
+    #[command(after_help = export_ssp::HELP)]
+    ExportSsp(ExportSsp),
+    /// Check a scenario and print all its problems
+    CheckScenario {
+        /// The scenario file
+        scenario: PathBuf,
+    },
+    /// Show what engineers check first of a bridge: mass, reactions, what is loose, lowest frequencies
+    #[command(after_help = "Exit code 2 if something is loose or forces do not balance.")]
+    InspectBridge {
+        /// A scenario, or a bridge model file
+        file: PathBuf,
+    },
+    /// Test an FMU: does it do what its description and the standard promise?
+    #[command(after_help = check::HELP)]
+    Check(Check),
+    /// Run a scenario by the paper's methods: strongly coupled, loosely coupled, hybrid, multi-time-step
+    #[command(after_help = compare::HELP)]
+    Compare(Compare),
+    /// Run a scenario at several steps and show how accurate every reported quantity is
+    #[command(after_help = "The output folder gets accuracy.md, accuracy.csv and the plot accuracy.svg and .png.")]
+    Accuracy(Accuracy),
+    /// Show what an FMU offers and propose a map of its variables
+    Inspect(Inspect),
+    /// Make a bridge model of shells and beams, and a scenario that runs a train over it
+    Generate(Generate),
+    /// Print the JSON Schema of scenario files
+    #[command(
+        after_help = "Put it beside your scenarios and name it in them, \"$schema\": \"scenario.schema.json\": editors then complete and check."
+    )]
+    Schema {
+        /// That of bridge model files instead
+        #[arg(long)]
+        bridge: bool,
+    },
+    /// What `ttb run --isolate` starts to run an FMU in
+    #[command(hide = true)]
+    Host {
+        /// Load this library first
+        #[arg(long)]
+        preload: Vec<PathBuf>,
+    },
+}

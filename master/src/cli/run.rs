@@ -1,0 +1,89 @@
+//! Arguments of `ttb run`.
+
+use std::path::{Path, PathBuf};
+
+use clap::{Args, ValueEnum};
+
+pub(super) const HELP: &str = "\
+The output folder gets
+  results.csv      time, then every output by its FMI name, SI units (opens in FMPy, pandas, spreadsheets)
+  iterations.csv   one row a step: iterations, residual, contraction, roll-backs, seconds
+  summary.json     peaks with place and time, contact forces, iterations, timing, versions
+  results.svg      deck, cars and wheels over time
+  *.fmu            the two FMUs that were run
+
+A bridge of somebody else's (docs/guide/bridges.md):
+  ttb check THEIRS.fmu                         does it keep what FMI promises?
+  ttb inspect --map THEIRS.fmu > map.json      a map of its variables onto ours: names, signs, units, places
+  ttb run scenario.json --bridge THEIRS.fmu --map map.json
+Trial steps before the run find wrong signs and units, and states that do not come back.
+
+A foreign FMU that crashes takes the program and its results along, unless it is isolated:
+  ttb run scenario.json --bridge THEIRS.fmu --isolate --timeout 10";
+
+/// Arguments of `ttb run`.
+#[derive(Debug, Args)]
+pub struct Run {
+    /// The scenario file, or a system structure of two FMUs, FILE.ssp [default: the bundled ICE 3 over a cable-stayed bridge]
+    pub scenario: Option<PathBuf>,
+    /// Folder for the results
+    #[arg(short, long, default_value = "ttb-out")]
+    pub output: PathBuf,
+    /// Use this FMU as the train–track subsystem instead of building one
+    #[arg(long, value_name = "FMU")]
+    pub train_track: Option<PathBuf>,
+    /// Use this FMU as the bridge instead of building one; several times for several bridges in track order
+    #[arg(long, value_name = "FMU")]
+    pub bridge: Vec<PathBuf>,
+    /// How the given bridge's variables belong to ours, where they stand, parameters; `ttb inspect FMU --map` proposes one
+    ///
+    /// With several bridges: one map for all, or one for each in the same order.
+    #[arg(long, value_name = "FILE", requires = "bridge")]
+    pub map: Vec<PathBuf>,
+    /// Run FMUs in processes of their own: should one crash or hang, the results so far are kept
+    ///
+    /// Without value: the FMUs given by --bridge and --train-track, or both of an .ssp file. What such an FMU prints goes
+    /// to standard error, each line after its name. Linux only.
+    #[arg(long, value_name = "SIDE", num_args = 0..=1, require_equals = true, default_missing_value = "given")]
+    pub isolate: Option<Isolate>,
+    /// Longest time a call of an isolated FMU may take [default: 60]
+    #[arg(long, value_name = "SECONDS", requires = "isolate", allow_negative_numbers = true)]
+    pub timeout: Option<f64>,
+    /// Load this library before the FMUs, e.g. libpython3.11.so.1.0 for those made with PythonFMU
+    #[arg(long, value_name = "LIB")]
+    pub preload: Vec<PathBuf>,
+    /// Skip the trial steps before the run that test roll-back, signs and units of the FMUs
+    #[arg(long)]
+    pub no_probe: bool,
+    /// No progress, no summary
+    #[arg(short, long)]
+    pub quiet: bool,
+}
+
+impl Run {
+    /// The system structure to be run, if it is one: by the file's name.
+    pub fn system(&self) -> Option<&Path> {
+        let is_system = |path: &&Path| path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("ssp"));
+        self.scenario.as_deref().filter(is_system)
+    }
+
+    /// Whether the train–track and the bridge FMU come from the user: by an option, or in a system structure.
+    pub fn given(&self) -> [bool; 2] {
+        let system = self.system().is_some();
+        [self.train_track.is_some(), !self.bridge.is_empty()].map(|given| system || given)
+    }
+}
+
+/// The FMUs to isolate.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Isolate {
+    /// The train–track FMU
+    TrainTrack,
+    /// The bridge FMU
+    Bridge,
+    /// Both FMUs
+    Both,
+    /// Those given by --bridge and --train-track, or by an .ssp file
+    #[value(hide = true)]
+    Given,
+}

@@ -1,0 +1,71 @@
+//! Step sizes as masters send them: with rounding noise, halved, next to nothing.
+
+use ttb_coupling::dense::not_finite;
+
+use super::context::Context;
+use super::drive::{Drive, open, reference};
+use super::finding::Finding;
+
+/// Steps compared.
+const STEPS: usize = 100;
+
+/// Allowed difference between a run and one with rounding noise in its times, relative.
+const NOISE: f64 = 1e-6;
+
+/// Jitter for all; halves and tiny steps for those that say they can.
+pub fn steps(context: &Context) -> Result<(), Finding> {
+    let (probe, plan) = open(context)?;
+    let n = plan.steps(STEPS);
+    let exact = reference(&probe, &plan, n)?;
+
+    let mut drive = Drive::fresh(&probe, &plan)?;
+    let noisy = |k: usize| {
+        // Times added up, as many masters do: t and h lose their last digits.
+        let t: f64 = (0..k).fold(plan.start, |t, _| t + plan.h);
+        (t, if k.is_multiple_of(2) { plan.time(k + 1) - t } else { plan.h * (1.0 - 3e-16 * k as f64) })
+    };
+    let run: Result<Vec<_>, _> =
+        (0..n.saturating_sub(1)).map(|k| drive.step_from(noisy(k).0, noisy(k).1, 0.0)).collect();
+    let what = "rounding noise in time and step size disturbs it";
+    match run {
+        Err(refused) => context.find(Finding::error("step-jitter", what).at(refused.at).seen(refused.what)),
+        Ok(run) => {
+            if let Some(difference) = exact.and_then(|exact| drive.differ(&exact[..run.len()], &run, NOISE)) {
+                context.find(Finding::error("step-jitter", what).seen(difference));
+            }
+        }
+    }
+    drive.instance.free();
+    if !context.description.co_simulation.can_handle_variable_communication_step_size || n < 4 {
+        return Ok(());
+    }
+
+    let mut drive = Drive::fresh(&probe, &plan)?;
+    let h = plan.h;
+    let sizes = [
+        (0.0, h, "step-halved"),
+        (h, 0.5 * h, "step-halved"),
+        (1.5 * h, 0.5 * h, "step-halved"),
+        (2.0 * h, 1e-17 * h, "step-tiny"),
+        (2.0 * h, h, "step-tiny"),
+    ];
+    for (t, h, name) in sizes {
+        let what =
+            if name == "step-tiny" { "it stumbles over a step of next to nothing" } else { "it does not step by h/2" };
+        let finding = Finding::error(name, what).at(format!("fmi2DoStep from t = {} s by {h:e} s", plan.start + t));
+        match drive.step_from(plan.start + t, h, 0.0) {
+            Err(refused) => {
+                context.find(finding.seen(format!("{} {}", refused.what, refused.evidence)));
+                return Ok(());
+            }
+            Ok(values) => {
+                if let Some(i) = not_finite(&values) {
+                    context.find(finding.seen(format!("{} is {}", plan.name(i), values[i])));
+                    return Ok(());
+                }
+            }
+        }
+    }
+    drive.instance.free();
+    Ok(())
+}

@@ -1,0 +1,16 @@
+//! The verbs of `ttb`, a file or folder each.
+
+pub mod accuracy;
+pub mod build;
+pub mod check;
+pub mod check_scenario;
+pub mod compare;
+pub mod export_ssp;
+pub mod generate;
+pub mod host;
+pub mod inspect;
+pub mod inspect_bridge;
+mod progress;
+pub mod run;
+pub mod schema;
+mod signals;

@@ -1,0 +1,284 @@
+//! Which variables of a bridge belong to which supports of the track: by its map, its declared units, its stations.
+
+use std::ops::Range;
+
+use ttb_coupling::Stations;
+use ttb_fmi::description::{ModelDescription, VariableType};
+use ttb_fmi::{FmuInstance, Linear};
+
+use super::map::{Even, Map, Places, Read, Series};
+use crate::error::Error;
+
+/// Coupled variables of an FMU in order, and the lines between each of them and the iteration.
+#[derive(Clone, Debug, Default)]
+pub struct Ends {
+    /// Names.
+    pub names: Vec<String>,
+    /// To an input from the iteration, or from an output to it.
+    pub lines: Vec<Linear>,
+}
+
+/// A bridge's part in the coupling.
+#[derive(Clone)]
+pub struct Assigned {
+    /// The bridge's inputs.
+    pub forces_in: Ends,
+    /// The bridge's outputs: displacements, then velocities.
+    pub motions_out: Ends,
+    /// The train–track side's outputs.
+    pub forces_out: Ends,
+    /// The train–track side's inputs: displacements, then velocities.
+    pub motions_in: Ends,
+    /// From the bridge's places to the supports, if they differ.
+    pub stations: Option<Stations>,
+    /// Whether it gives velocities.
+    pub velocities: bool,
+}
+
+/// What is coupled, as powers of kg, m, s.
+const QUANTITIES: [(&str, [i32; 3]); 3] =
+    [("force", [1, 1, -2]), ("displacement", [0, 1, 0]), ("velocity", [0, 1, -1])];
+
+impl Ends {
+    /// Adds a variable.
+    pub fn push(&mut self, name: String, line: Linear) {
+        self.names.push(name);
+        self.lines.push(line);
+    }
+
+    /// These, then others.
+    pub fn extend(&mut self, others: Self) {
+        self.names.extend(others.names);
+        self.lines.extend(others.lines);
+    }
+
+    /// The first `count`, and the rest.
+    pub fn split(mut self, count: usize) -> (Self, Self) {
+        let count = count.min(self.names.len());
+        let rest = Self { names: self.names.split_off(count), lines: self.lines.split_off(count) };
+        (self, rest)
+    }
+}
+
+impl Assigned {
+    /// Every variable to one of the other side: the train–track side's forces, out of it and into the bridge, and the
+    /// bridge's motions, out of it and into the train–track side.
+    pub fn one_to_one([forces_out, forces_in]: [Ends; 2], [motions_out, motions_in]: [Ends; 2]) -> Self {
+        Self { forces_in, motions_out, forces_out, motions_in, stations: None, velocities: true }
+    }
+}
+
+/// The line from a variable to SI by the unit it declares; none if it declares none.
+///
+/// # Errors
+/// The unit is one of another quantity.
+pub fn declared(description: &ModelDescription, name: &str) -> Result<Option<Linear>, String> {
+    let unit = description.variable(name).and_then(|variable| Some((variable.unit.as_ref()?, variable)));
+    let Some((unit_name, _)) = unit else { return Ok(None) };
+    let Some(unit) = description.units.get(unit_name) else { return Ok(None) };
+    let Some((what, powers)) = QUANTITIES.into_iter().find(|(what, _)| name.ends_with(what)) else {
+        return Ok(Some(Linear { factor: unit.factor, offset: unit.offset }));
+    };
+    if unit.powers == [0; 8] && unit.factor == 1.0 {
+        return Ok(None); // declared by name only
+    }
+    if unit.powers[..3] != powers || unit.powers[3..].iter().any(|p| *p != 0) {
+        return Err(format!("{name} is in {unit_name}, which is no unit of a {what}"));
+    }
+    Ok(Some(Linear { factor: unit.factor, offset: unit.offset }))
+}
+
+/// Range of supports and stations of every bridge; `supports` are the track's supports on bridges, m from the begin.
+///
+/// # Errors
+/// Supports that belong to no bridge or to two.
+pub fn ranges(
+    maps: &[&Map],
+    bridges: &[&mut FmuInstance],
+    places: &[Option<Vec<f64>>],
+    supports: &[f64],
+) -> Result<Vec<Range<usize>>, Error> {
+    let mut ranges = Vec::new();
+    let mut next = 0;
+    for ((map, bridge), places) in maps.iter().zip(bridges).zip(places) {
+        let points = map.force.count(bridge.description());
+        let range = match (map.supports, places) {
+            (Some([first, last]), _) => first - 1..last,
+            _ if maps.len() == 1 => 0..supports.len(),
+            (None, None) => next..next + points,
+            (None, Some(places)) => {
+                let ends = places
+                    .iter()
+                    .chain(&map.bearings)
+                    .fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], x| [a.min(*x), b.max(*x)]);
+                let end = next + supports.iter().skip(next).take_while(|x| **x <= ends[1] + 1e-3).count();
+                next..end
+            }
+        };
+        if range.start != next || range.end > supports.len() {
+            return Err(Error::Input(format!(
+                "{}: supports {} to {} would be its own, but the one after the bridge before is {}, and there are {} in all",
+                bridge.name(),
+                range.start + 1,
+                range.end,
+                next + 1,
+                supports.len()
+            )));
+        }
+        next = range.end;
+        ranges.push(range);
+    }
+    if next != supports.len() {
+        return Err(Error::Input(format!(
+            "the bridges have {next} supports of the track's {}: the forces of the others would be lost",
+            supports.len()
+        )));
+    }
+    Ok(ranges)
+}
+
+/// Where a bridge's places are, m from the begin of the scenario's bridge; none if they are the supports.
+///
+/// # Errors
+/// They cannot be read.
+pub fn places(map: &Map, bridge: &mut FmuInstance) -> Result<Option<Vec<f64>>, Error> {
+    let count = map.force.count(bridge.description());
+    Ok(match &map.stations {
+        None => None,
+        Some(Places::List(places)) => Some(places.clone()),
+        Some(Places::Even(Even { from, spacing })) => Some((0..count).map(|i| from + i as f64 * spacing).collect()),
+        Some(Places::Read(read)) => Some(read_places(read, count, bridge)?),
+    })
+}
+
+fn read_places(read: &Read, count: usize, bridge: &mut FmuInstance) -> Result<Vec<f64>, Error> {
+    let mut places = Vec::new();
+    for name in (1..=count).map(|k| read.at(k)) {
+        if bridge.description().variable(&name).is_none() {
+            let name_of_bridge = bridge.name();
+            return Err(Error::Input(format!(
+                "{name_of_bridge}: stations: it has no variable {name}, but {count} forces"
+            )));
+        }
+        let unit = declared(bridge.description(), &name).ok().flatten().map_or(1.0, |line| line.factor);
+        let value = bridge.get_number(&name)?;
+        places.push(read.offset + read.factor.map_or(unit * value, |factor| value / factor));
+    }
+    Ok(places)
+}
+
+/// A bridge's part by its map.
+///
+/// # Errors
+/// Missing variables, units of another quantity, stations that would lose force: all of them.
+pub fn assign(
+    map: &Map,
+    train_track: &ModelDescription,
+    bridge: &FmuInstance,
+    range: &Range<usize>,
+    places: Option<&Vec<f64>>,
+    supports: &[f64],
+    warnings: &mut Vec<String>,
+) -> Result<Assigned, Error> {
+    let description = bridge.description();
+    let mut problems = Problems { missing: Vec::new(), others: Vec::new() };
+    let stations = places.and_then(|places| {
+        let stations = Stations::new(places, &map.bearings, &supports[range.clone()], map.interpolation.into());
+        stations.map_err(|e| problems.others.push(e.to_string())).ok()
+    });
+    let points = places.map_or(range.len(), Vec::len);
+    let mut theirs = |series: &Series, what: &str, causality: &str| {
+        let mut ends = Ends::default();
+        for k in 1..=points {
+            let Some(name) = series.at(k) else {
+                problems.others.push(format!("the map names {} of its {points} {what}s", k - 1));
+                break;
+            };
+            if !has(description, &name, causality) {
+                problems.missing.push(format!("{causality} {name}"));
+                continue;
+            }
+            let line = line(series, description, &name, what, &mut problems.others);
+            // From SI to the FMU, or the other way round.
+            ends.push(name, if causality == "input" { line } else { line.inverse() });
+        }
+        ends
+    };
+    let forces_in = theirs(&map.force, "force", "input");
+    let mut motions_out = theirs(&map.displacement, "displacement", "output");
+    if let Some(velocity) = &map.velocity {
+        motions_out.extend(theirs(velocity, "velocity", "output"));
+    }
+    let mut ours = |what: &str, causality: &str| {
+        let mut ends = Ends::default();
+        for k in range.clone() {
+            let name = format!("support[{}].{what}", k + 1);
+            if has(train_track, &name, causality) {
+                ends.push(name, Linear::IDENTITY);
+            } else {
+                problems.others.push(format!("{} has no {causality} {name}", train_track.model_name));
+            }
+        }
+        ends
+    };
+    let forces_out = ours("force", "output");
+    let mut motions_in = ours("displacement", "input");
+    motions_in.extend(ours("velocity", "input"));
+    problems.tell(bridge.name(), points)?;
+    if map.velocity.is_none() {
+        warnings.push(format!(
+            "{}: it gives no velocities (velocity is null): they follow from its displacements by the trapezoidal rule, as \
+             accurate as its own where it integrates by it, of second order elsewhere (docs/guide/bridges.md)",
+            bridge.name()
+        ));
+    }
+    let more = map.force.count(description);
+    if more > points {
+        warnings.push(format!("{}: {} forces beyond the {points} mapped ones stay 0", bridge.name(), more - points));
+    }
+    Ok(Assigned { forces_in, motions_out, forces_out, motions_in, stations, velocities: map.velocity.is_some() })
+}
+
+/// From SI to a variable: by the map's factor, else by the unit it declares.
+fn line(series: &Series, description: &ModelDescription, name: &str, what: &str, problems: &mut Vec<String>) -> Linear {
+    if let Some(factor) = series.factor {
+        return Linear { factor, offset: 0.0 };
+    }
+    let unit = description.variable(name).and_then(|variable| description.units.get(variable.unit.as_ref()?));
+    let Some(unit) = unit.filter(|unit| unit.powers != [0; 8]) else { return Linear::IDENTITY };
+    let powers = QUANTITIES.into_iter().find(|(quantity, _)| *quantity == what).map_or([0; 3], |(_, powers)| powers);
+    if unit.powers[..3] != powers || unit.powers[3..].iter().any(|p| *p != 0) {
+        problems.push(format!("the unit of {name} is none of a {what}: give a factor if it is one all the same"));
+    }
+    Linear { factor: unit.factor, offset: unit.offset }.inverse()
+}
+
+/// Names told one by one.
+const TOLD: usize = 10;
+
+/// What is wrong with a map and its FMU.
+struct Problems {
+    missing: Vec<String>,
+    others: Vec<String>,
+}
+
+impl Problems {
+    fn tell(mut self, bridge: &str, points: usize) -> Result<(), Error> {
+        if !self.missing.is_empty() {
+            let more = self.missing.len().saturating_sub(TOLD);
+            self.missing.truncate(TOLD);
+            let more = if more > 0 { format!(" and {more} more") } else { String::new() };
+            self.others
+                .insert(0, format!("{points} places are mapped, but it has no {}{more}", self.missing.join(", ")));
+        }
+        if self.others.is_empty() {
+            Ok(())
+        } else {
+            Err(Error::Input(format!("{bridge}: {}", self.others.join("\n  "))))
+        }
+    }
+}
+
+fn has(description: &ModelDescription, name: &str, causality: &str) -> bool {
+    description.with_causality(causality).any(|v| v.name == name && v.kind == VariableType::Real)
+}

@@ -1,0 +1,253 @@
+//! From FMU files to two coupled subsystems: variables of equal name are connected, or those that maps name.
+
+use std::collections::{BTreeMap, HashMap};
+use std::path::Path;
+
+use ttb_contract::Subsystem;
+use ttb_coupling::probe::Probe;
+use ttb_coupling::{Adapted, Coupling, Joined, Settings};
+use ttb_fmi::isolate::Isolation;
+use ttb_fmi::{Another, Fmu, FmuError, FmuInstance, FmuSubsystem};
+use ttb_scenario::Checked;
+use ttb_scenario::types::Send;
+
+use super::assign::{Assigned, Ends, assign, places, ranges};
+use super::equal::equal_names;
+use super::isolate::{self, Isolated};
+use super::map::{Map, Value};
+use super::parameters;
+use crate::error::Error;
+
+/// The bridge side of a run: one FMU or several, each as the iteration wants it.
+pub type BridgeSide = Joined<Adapted<FmuSubsystem>>;
+
+/// Both sides in initialization mode, and their coupling.
+pub struct Connected {
+    /// The train–track FMU.
+    pub train_track: FmuSubsystem,
+    /// The bridge FMUs.
+    pub bridge: BridgeSide,
+    /// The iteration.
+    pub coupling: Coupling,
+    /// What was noticed.
+    pub warnings: Vec<String>,
+    /// Of every bridge: its name and its variables.
+    pub parts: Vec<(String, Assigned)>,
+    /// What trial steps before the first one showed.
+    pub probe: Probe,
+    /// Whether there may be more instances of every bridge in this process.
+    pub several: bool,
+}
+
+/// A bridge FMU that the user gives, or that was built here.
+pub struct Given<'a> {
+    /// The file.
+    pub path: &'a Path,
+    /// How its variables belong to ours; none: by equal names.
+    pub map: Option<&'a Map>,
+}
+
+/// A bridge in initialization mode.
+pub struct Bridge {
+    /// It.
+    pub instance: FmuInstance,
+    /// Makes another one, which shares nothing with it.
+    pub another: Box<dyn Fn() -> Result<FmuInstance, Error> + std::marker::Send>,
+    /// Whether there may be several in this process.
+    pub several: bool,
+    /// Whether to save and restore its state, if it can.
+    pub trusted: bool,
+}
+
+impl Bridge {
+    /// Of an FMU file, for a run to `end`.
+    pub fn open(
+        path: &Path,
+        name: &str,
+        isolation: Option<&Isolation>,
+        end: f64,
+        parameters: &BTreeMap<String, Value>,
+    ) -> Result<Self, Error> {
+        let (path, name, isolation) = (path.to_path_buf(), name.to_string(), isolation.cloned());
+        let (apart, parameters) = (isolation.is_some(), parameters.clone());
+        let another = move || instantiate(&isolate::open(&path, isolation.as_ref())?, &name, end, &parameters);
+        let instance = another()?;
+        let several = apart || !instance.description().co_simulation.can_be_instantiated_only_once_per_process;
+        Ok(Self { instance, another: Box::new(another), several, trusted: true })
+    }
+}
+
+/// Loads the FMUs, enters initialization mode, connects.
+///
+/// Variables of equal name belong together, or those that maps name. Bridges that are not `trusted` are taken for such that
+/// cannot roll back.
+pub fn connect(
+    train_track: &Path,
+    bridges: &[Given],
+    checked: &Checked,
+    isolated: &Isolated,
+    trusted: bool,
+) -> Result<Connected, Error> {
+    let end = checked.train_track.end;
+    let train_track = isolate::open(train_track, isolated.train_track.as_ref())?;
+    let train_track = instantiate(&train_track, "TrainTrack", end, &BTreeMap::new())?;
+    let mut warnings = checked.warnings.clone();
+    let ours = Map::default();
+    let maps: Vec<&Map> = bridges.iter().map(|given| given.map.unwrap_or(&ours)).collect();
+    let mut offered = Vec::new();
+    for (k, (given, map)) in bridges.iter().zip(&maps).enumerate() {
+        let name = if bridges.len() == 1 { "Bridge".to_string() } else { format!("Bridge{}", k + 1) };
+        let bridge = Bridge::open(given.path, &name, isolated.bridge.as_ref(), end, &map.parameters)?;
+        offered.push(Bridge { trusted: trusted && map.roll_back, ..bridge });
+    }
+    let assigned = match &offered[..] {
+        [bridge] if bridges[0].map.is_none() => {
+            vec![equal_names(&train_track, &bridge.instance, &mut warnings)?]
+        }
+        _ => {
+            let mut instances: Vec<&mut FmuInstance> = offered.iter_mut().map(|bridge| &mut bridge.instance).collect();
+            let places = maps.iter().zip(&mut instances).map(|(map, bridge)| places(map, bridge));
+            let places: Vec<Option<Vec<f64>>> = places.collect::<Result<_, _>>()?;
+            let supports = &checked.bridge.supports;
+            let ranges = ranges(&maps, &instances, &places, supports)?;
+            let each = maps.iter().zip(&instances).zip(ranges.iter().zip(&places));
+            let each = each.map(|((map, bridge), (range, places))| {
+                assign(map, train_track.description(), bridge, range, places.as_ref(), supports, &mut warnings)
+            });
+            each.collect::<Result<_, _>>()?
+        }
+    };
+    let parts = offered.into_iter().zip(assigned).collect();
+    couple(train_track, parts, checked.settings(), checked.scenario.coupling.send, checked.steps().step, warnings)
+}
+
+/// Couples FMUs in initialization mode; `h` is the step to come, s.
+pub fn couple(
+    train_track: FmuInstance,
+    bridges: Vec<(Bridge, Assigned)>,
+    settings: Settings,
+    send: Send,
+    h: f64,
+    mut warnings: Vec<String>,
+) -> Result<Connected, Error> {
+    if settings.max_iterations > 1 && !train_track.can_restore() {
+        return Err(Error::Input(format!(
+            "{} cannot save and restore its state (canGetAndSetFMUstate), so its steps cannot be repeated; one pass a step is \
+             coupling.max_iterations = 1 with on_failure = accept, which is only accurate for heavy bridges and small steps",
+            train_track.name()
+        )));
+    }
+    let all_several = bridges.iter().all(|(bridge, _)| bridge.several);
+    let rolls_back = bridges.iter().all(|(bridge, _)| bridge.trusted && bridge.instance.can_restore());
+    let mut forces_out = Ends::default();
+    let (mut displacements, mut velocities) = (Ends::default(), Ends::default());
+    let (mut sides, mut parts) = (Vec::new(), Vec::new());
+    for (bridge, assigned) in bridges {
+        let Bridge { instance, another, several, trusted } = bridge;
+        let name = instance.name().to_string();
+        if settings.max_iterations > 1 && !(trusted && instance.can_restore()) {
+            let cannot =
+                if trusted { "cannot save and restore its state (canGetAndSetFMUstate)" } else { "is not rolled back" };
+            warnings.push(format!(
+                "{name} {cannot}: steps are taken once, without iteration; the summary estimates the error"
+            ));
+        }
+        if !rolls_back && !several {
+            warnings.push(format!(
+                "{name} may exist only once in a process: nothing of it is tried before the run; --isolate makes it possible"
+            ));
+        }
+        if send == Send::Rate && !instance.can_interpolate() {
+            return Err(Error::Input(format!(
+                "coupling.send is rate, but {name} cannot interpolate inputs: use auto or mean"
+            )));
+        }
+        let mut side = subsystem(instance, &assigned.forces_in, &assigned.motions_out)?;
+        if !rolls_back {
+            let (name, ends) = (name.clone(), (assigned.forces_in.clone(), assigned.motions_out.clone()));
+            let another: Another = Box::new(move || {
+                let impossible = |e: Error| FmuError::Impossible { instance: name.clone(), what: e.to_string() };
+                subsystem(another().map_err(impossible)?, &ends.0, &ends.1).map_err(impossible)
+            });
+            side = side.without_roll_back(several.then_some(another));
+        }
+        let (points, supports) = (assigned.forces_in.names.len(), assigned.forces_out.names.len());
+        let plain = assigned.stations.is_none() && assigned.velocities;
+        let side = if plain {
+            Adapted::plain(side)
+        } else {
+            Adapted::new(side, points, assigned.stations.clone(), assigned.velocities, h)
+        };
+        sides.push((side, supports));
+        forces_out.extend(assigned.forces_out.clone());
+        let (d, v) = assigned.motions_in.clone().split(supports);
+        displacements.extend(d);
+        velocities.extend(v);
+        parts.push((name, assigned));
+    }
+    displacements.extend(velocities);
+    let (forces, motions) = (forces_out.names.len(), displacements.names.len());
+    let moved = moved(&forces_out.names, &displacements.names);
+    if settings.mean_forces {
+        means(&train_track, &mut forces_out.names)?;
+    }
+    let train_track = subsystem(train_track, &displacements, &forces_out)?;
+    if !train_track.can_interpolate() {
+        warnings.push("the train–track FMU cannot interpolate inputs: the deck's motion is sent as held means".into());
+    }
+    let (bridge, coupling) = (Joined::new(sides), Coupling::new(forces, motions, settings));
+    let coupling = coupling.with_displacements(moved);
+    Ok(Connected { train_track, bridge, coupling, warnings, parts, probe: Probe::default(), several: all_several })
+}
+
+/// The train–track FMU's outputs `….force` replaced by `….mean_force`, which sub-steps send.
+fn means(train_track: &FmuInstance, forces: &mut [String]) -> Result<(), Error> {
+    let refused = |why: String| Err(Error::Input(format!("{}: several sub-steps need {why}", train_track.name())));
+    if !train_track.can_interpolate() {
+        return refused("inputs that can be interpolated (canInterpolateInputs)".into());
+    }
+    for force in forces {
+        *force = mean(force);
+        if train_track.description().variable(force).is_none() {
+            return refused(format!("an output {force}"));
+        }
+    }
+    Ok(())
+}
+
+/// Where each force finds its displacement among the motions, by the train–track FMU's names `….force` and
+/// `….displacement`; none if they are called otherwise.
+fn moved(forces: &[String], motions: &[String]) -> Vec<usize> {
+    let places: HashMap<&str, usize> = motions.iter().enumerate().map(|(i, name)| (name.as_str(), i)).collect();
+    let of_force = |force: &String| places.get(format!("{}.displacement", place(force)).as_str()).copied();
+    forces.iter().map(of_force).collect::<Option<_>>().unwrap_or_default()
+}
+
+/// The output with the mean over a step of a force, `support[3].force`.
+pub fn mean(force: &str) -> String {
+    format!("{}.mean_force", place(force))
+}
+
+/// `support[3]` of `support[3].force`.
+fn place(name: &str) -> &str {
+    name.rsplit_once('.').map_or(name, |(place, _)| place)
+}
+
+/// One side, by its coupled variables.
+fn subsystem(instance: FmuInstance, inputs: &Ends, outputs: &Ends) -> Result<FmuSubsystem, Error> {
+    Ok(FmuSubsystem::new(instance, &inputs.names, &outputs.names)?.transformed(&inputs.lines, &outputs.lines))
+}
+
+/// An instance in initialization mode.
+pub fn instantiate(
+    fmu: &Fmu,
+    name: &str,
+    end: f64,
+    parameters: &BTreeMap<String, Value>,
+) -> Result<FmuInstance, Error> {
+    let mut instance = fmu.instantiate(name, false)?;
+    parameters::set(&mut instance, parameters)?;
+    instance.setup_experiment(0.0, Some(end))?;
+    instance.enter_initialization()?;
+    Ok(instance)
+}

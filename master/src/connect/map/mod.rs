@@ -1,0 +1,175 @@
+//! How a foreign bridge's variables belong to ours: the file `ttb inspect --map` proposes and `ttb run --map` reads.
+//!
+//! ```json
+//! {
+//!   "force":        { "name": "f[{i}]",      "first": 0, "factor": 1e-3 },
+//!   "displacement": { "name": "Deck.uz_{i}", "first": 0, "factor": -1e3 },
+//!   "velocity":     null,
+//!   "stations":     { "from": 0.0, "spacing": 2.5 },
+//!   "parameters":   { "Deck.EI": 4.4e11 }
+//! }
+//! ```
+//!
+//! Our variables are `support[k].force`, `.displacement` and `.velocity` for k = 1 … n in track order, in N, m and m/s,
+//! down positive. Theirs at place k has the number `first + k - 1` in place of `{i}`, and for all three
+//!
+//! ```text
+//! their value = factor · our value
+//! ```
+//!
+//! so 1e-3 stands for kN, 1e3 for mm, a negative factor for up positive. Without `stations` their places are our supports.
+
+mod fields;
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+use serde::{Deserialize, Serialize};
+
+use crate::error::Error;
+pub use fields::{Even, INDEX, Interpolation, Places, Read, Series, Value};
+
+/// The whole map.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Map {
+    /// Inputs of the bridge: forces on the deck.
+    #[serde(default = "our_force")]
+    pub force: Series,
+    /// Outputs: the deck's displacements.
+    #[serde(default = "our_displacement")]
+    pub displacement: Series,
+    /// Outputs: their velocities; null: there are none, they follow from the displacements.
+    #[serde(default = "our_velocity")]
+    pub velocity: Option<Series>,
+    /// Where their places are, if they are not our supports.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub stations: Option<Places>,
+    /// Shape of the deck between stations.
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub interpolation: Interpolation,
+    /// Where the deck bears without a station, m: it does not move there.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub bearings: Vec<f64>,
+    /// Our supports that stand on this bridge, first and last, from 1.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub supports: Option<[usize; 2]>,
+    /// Whether to save and restore its state, if it can.
+    #[serde(default = "yes", skip_serializing_if = "is_yes")]
+    pub roll_back: bool,
+    /// Parameters and start values by name, in the FMU's own units.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub parameters: BTreeMap<String, Value>,
+    /// Where it was read, for messages.
+    #[serde(skip)]
+    pub path: PathBuf,
+}
+
+fn yes() -> bool {
+    true
+}
+
+fn is_yes(value: &bool) -> bool {
+    *value
+}
+
+fn is_default<T: Default + PartialEq>(value: &T) -> bool {
+    *value == T::default()
+}
+
+fn ours(what: &str) -> Series {
+    Series { name: Some(format!("support[{INDEX}].{what}")), ..Series::default() }
+}
+fn our_force() -> Series {
+    ours("force")
+}
+fn our_displacement() -> Series {
+    ours("displacement")
+}
+fn our_velocity() -> Option<Series> {
+    Some(ours("velocity"))
+}
+
+impl Default for Map {
+    /// Our own names.
+    fn default() -> Self {
+        Self {
+            force: our_force(),
+            displacement: our_displacement(),
+            velocity: our_velocity(),
+            stations: None,
+            interpolation: Interpolation::default(),
+            bearings: Vec::new(),
+            supports: None,
+            roll_back: true,
+            parameters: BTreeMap::new(),
+            path: PathBuf::new(),
+        }
+    }
+}
+
+impl Map {
+    /// Reads the file.
+    pub fn load(path: &Path) -> Result<Self, Error> {
+        let refused = |why: String| Error::Input(format!("{}: {why}", path.display()));
+        let text = std::fs::read_to_string(path).map_err(|e| refused(e.to_string()))?;
+        let mut map: Self = serde_json::from_str(&text).map_err(|e| refused(e.to_string()))?;
+        map.path = path.to_path_buf();
+        let problems = map.problems();
+        if problems.is_empty() { Ok(map) } else { Err(refused(problems.join(&format!("\n{}: ", path.display())))) }
+    }
+
+    /// Everything that is wrong with it, each with its place.
+    fn problems(&self) -> Vec<String> {
+        let series = [
+            ("force", Some(&self.force)),
+            ("displacement", Some(&self.displacement)),
+            ("velocity", self.velocity.as_ref()),
+        ];
+        let told = |(key, series): (&str, Option<&Series>)| series?.problem().map(|rule| format!("$.{key}: {rule}"));
+        let mut problems: Vec<String> = series.into_iter().filter_map(told).collect();
+        match &self.stations {
+            None if !self.bearings.is_empty() => {
+                problems.push("$.bearings: belong to stations, and there are none".into())
+            }
+            Some(Places::Even(Even { from, spacing }))
+                if !(from.is_finite() && *spacing > 0.0 && spacing.is_finite()) =>
+            {
+                problems.push(format!("$.stations: spacing must be positive: {spacing}"));
+            }
+            Some(Places::Read(read)) if !read.name.contains(INDEX) => {
+                problems.push(format!("$.stations: name must contain {INDEX}: `{}`", read.name));
+            }
+            _ => {}
+        }
+        if let Some([first, last]) = self.supports.filter(|[first, last]| *first == 0 || last < first) {
+            problems.push(format!("$.supports: first and last, counted from 1: [{first}, {last}]"));
+        }
+        problems
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_follow_the_number_and_defaults_are_ours() {
+        let text =
+            r#"{ "force": { "name": "f[{i}]", "first": 0, "factor": 1e-3 }, "displacement": { "names": ["a", "b"] } }"#;
+        let map: Map = serde_json::from_str(text).unwrap();
+        let at = |series: &Series, k| series.at(k).unwrap_or_default();
+        assert_eq!([at(&map.force, 1), at(&map.force, 12), at(&map.displacement, 2)], ["f[0]", "f[11]", "b"]);
+        assert_eq!((map.displacement.at(3), map.displacement.factor), (None, None));
+        assert_eq!(at(map.velocity.as_ref().unwrap(), 7), "support[7].velocity");
+        assert!(serde_json::from_str::<Map>(&text.replace("first", "frist")).is_err());
+        assert_eq!(serde_json::from_str::<Map>("{}").unwrap(), Map::default());
+    }
+
+    #[test]
+    fn all_problems_are_told() {
+        let text = r#"{ "force": { "name": "f" }, "displacement": { "name": "u{i}", "names": ["u"] }, "velocity": { "factor": 2 },
+                        "bearings": [0.0], "supports": [3, 2] }"#;
+        assert_eq!(serde_json::from_str::<Map>(text).unwrap().problems().len(), 5);
+    }
+}

@@ -1,0 +1,78 @@
+//! Parameters and start values that the user gives an FMU, by name and in its own units.
+
+use std::collections::BTreeMap;
+
+use ttb_fmi::FmuInstance;
+use ttb_fmi::description::{ScalarVariable, VariableType};
+use ttb_scenario::nearest;
+
+use super::map::Value;
+use crate::error::Error;
+
+/// Sets them before initialization.
+///
+/// # Errors
+/// Names that do not exist or may not be set, values of another type: all of them; or the FMU refuses one.
+pub fn set(instance: &mut FmuInstance, parameters: &BTreeMap<String, Value>) -> Result<(), Error> {
+    let problem = |(name, value): (&String, &Value)| match instance.description().variable(name) {
+        None => {
+            let settable = instance.description().variables.iter().filter(|v| is_settable(v)).map(|v| v.name.as_str());
+            let like = nearest(name, settable).map_or_else(String::new, |like| format!(" (did you mean `{like}`?)"));
+            Some(format!("parameters: it has no variable `{name}`{like}"))
+        }
+        Some(variable) if !is_settable(variable) => {
+            Some(format!("parameters: {name} cannot be set: it is a {} {}", variable.variability, variable.causality))
+        }
+        Some(variable) => misfit(variable, value).map(|kind| format!("parameters: {name} is {kind}, not {value}")),
+    };
+    let problems: Vec<String> = parameters.iter().filter_map(problem).collect();
+    if !problems.is_empty() {
+        return Err(Error::Input(format!("{}: {}", instance.name(), problems.join("\n  "))));
+    }
+    for (name, value) in parameters {
+        match value {
+            Value::Number(number) => instance.set_number(name, *number)?,
+            Value::Boolean(truth) => instance.set_number(name, f64::from(u8::from(*truth)))?,
+            Value::Text(text) => {
+                let reference = instance.description().variable(name).map_or(0, |variable| variable.value_reference);
+                instance.set_string(reference, text)?;
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Whether FMI lets a master set it before initialization: parameters, inputs, and what starts from a value.
+fn is_settable(variable: &ScalarVariable) -> bool {
+    let starts = matches!(variable.initial.as_deref(), Some("exact" | "approx")) || variable.start.is_some();
+    match variable.causality.as_str() {
+        "parameter" | "input" => true,
+        "calculatedParameter" | "independent" => false,
+        _ => starts && variable.variability != "constant",
+    }
+}
+
+/// What kind of value it takes, if not this one.
+fn misfit(variable: &ScalarVariable, value: &Value) -> Option<&'static str> {
+    let whole = |number: f64| number == f64::from(number as i32);
+    match (variable.kind, value) {
+        (VariableType::Real, Value::Number(number)) if number.is_finite() => None,
+        (VariableType::Integer | VariableType::Enumeration, Value::Number(number)) if whole(*number) => None,
+        (VariableType::Boolean, Value::Boolean(_)) | (VariableType::String, Value::Text(_)) => None,
+        (VariableType::Real, _) => Some("a Real"),
+        (VariableType::Integer, _) => Some("an Integer"),
+        (VariableType::Enumeration, _) => Some("an enumeration (an integer)"),
+        (VariableType::Boolean, _) => Some("a Boolean"),
+        (VariableType::String, _) => Some("a String"),
+    }
+}
+
+impl std::fmt::Display for Value {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Boolean(truth) => truth.fmt(f),
+            Self::Number(number) => number.fmt(f),
+            Self::Text(text) => write!(f, "\"{text}\""),
+        }
+    }
+}

@@ -1,0 +1,122 @@
+//! What the trial steps before the first one mean, in the words of the map.
+
+use ttb_coupling::probe::{Probe, is_lie};
+use ttb_coupling::verdict::{Response, Verdict};
+
+use super::assign::Assigned;
+use crate::error::Error;
+
+/// Refuses what was found to be wrong; `parts` are the bridges.
+pub fn judge(probe: &Probe, train_track: &str, parts: &[(String, Assigned)]) -> Result<(), Error> {
+    if let Some(off) = probe.train_track.filter(|off| is_lie(*off)) {
+        return Err(Error::Fmu(format!("{train_track}: {}", lie(off))));
+    }
+    if let Some(((name, _), off)) = parts.iter().zip(&probe.bridge).find(|(_, off)| is_lie(**off)) {
+        return Err(Error::Lies(format!("{name}: {}", lie(*off))));
+    }
+    let problem = |((name, part), response): (&(String, Assigned), &Response)| {
+        let verdict = response.verdict()?;
+        Some(format!("{name}: {}", part.says(&verdict, response)))
+    };
+    let problems: Vec<String> = parts.iter().zip(&probe.responses).filter_map(problem).collect();
+    if problems.is_empty() {
+        return Ok(());
+    }
+    Err(Error::Input(format!(
+        "{}\nTrial forces before the first step show this. Factors are those of the map: their value = factor · ours in N, m, \
+         m/s, down positive (--map, docs/guide/bridges.md). If all is as it should be: --no-probe.",
+        problems.join("\n")
+    )))
+}
+
+fn lie(off: f64) -> String {
+    format!(
+        "it says that it can save and restore its state (canGetAndSetFMUstate), but a step repeated from a restored state \
+         differs by {off:.1e} of what other forces change"
+    )
+}
+
+impl Assigned {
+    /// Variables of a series: force, displacement, velocity.
+    fn first(&self, key: &str) -> (&str, f64) {
+        let (ends, at) = match key {
+            "force" => (&self.forces_in, 0),
+            "displacement" => (&self.motions_out, 0),
+            _ => (&self.motions_out, self.motions_out.names.len() / 2),
+        };
+        let (name, line) = (&ends.names[at], ends.lines[at]);
+        (name, if key == "force" { line.factor } else { line.factor.recip() })
+    }
+
+    /// The factor that makes values `excess` times larger ones right.
+    fn mend(&self, key: &str, excess: f64) -> String {
+        if key == "velocity" && !self.velocities {
+            return "none to velocity, which follows from displacement".into();
+        }
+        let (name, factor) = self.first(key);
+        format!("\"{key}\" ({name} …): \"factor\": {:e}{}", factor * excess, unit(key, excess))
+    }
+
+    /// What a verdict means for its variables.
+    fn says(&self, verdict: &Verdict, response: &Response) -> String {
+        const MOTIONS: [&str; 2] = ["displacement", "velocity"];
+        let number = |i: usize| i + 1;
+        let seen = || format!("the deck answers as if it had {:.2e} kg under each support", response.mass[0].abs());
+        match *verdict {
+            Verdict::Still(which) => {
+                let key = if self.velocities { MOTIONS[which] } else { MOTIONS[0] };
+                let (motion, force) = (self.first(key).0, self.first("force").0);
+                format!("{motion} and the like do not move under forces on {force} and the like")
+            }
+            Verdict::Together(excess) => {
+                let what = match (excess < 0.0, excess.abs() == 1.0) {
+                    (true, true) => "the deck moves against the forces".to_string(),
+                    (true, false) => format!("the deck moves against the forces, and {}", seen()),
+                    _ => seen(),
+                };
+                let [d, v] = MOTIONS.map(|key| self.mend(key, excess));
+                let also = if self.velocities { format!(" and {v}") } else { String::new() };
+                format!("{what}; give {}; or else {d}{also}", self.mend("force", excess.recip()))
+            }
+            Verdict::Alone(which, excess) => {
+                let how = if excess == -1.0 {
+                    "has the opposite sign of".to_string()
+                } else {
+                    format!("is {excess:e} times what would belong to")
+                };
+                format!(
+                    "the {} {how} the {}; give {}",
+                    MOTIONS[which],
+                    MOTIONS[1 - which],
+                    self.mend(MOTIONS[which], excess)
+                )
+            }
+            Verdict::OneOf(excess) => format!(
+                "displacement and velocity do not belong together: the displacement is {excess:e} times the integral of the \
+                 velocity; give {}, or {}",
+                self.mend(MOTIONS[0], excess),
+                self.mend(MOTIONS[1], excess.recip())
+            ),
+            Verdict::Against(i) => format!(
+                "the displacement at support {} goes against a force there, at other supports it does not",
+                number(i)
+            ),
+            Verdict::Mixed(i, j) => format!(
+                "a force at support {0} moves the deck at support {1}, and one at support {1} moves it at support {0}, as on no \
+                 deck: forces and motions are not in the same order, or do not begin at the same number (\"first\")",
+                number(i),
+                number(j)
+            ),
+        }
+    }
+}
+
+/// What a factor suggests.
+fn unit(key: &str, excess: f64) -> &'static str {
+    match (key, excess.abs()) {
+        ("force", 1e-3) => " (kN?)",
+        ("displacement", 1e3) => " (mm?)",
+        ("velocity", 1e3) => " (mm/s?)",
+        _ => "",
+    }
+}

@@ -1,0 +1,120 @@
+//! From a scenario to two FMU files.
+
+use std::path::{Path, PathBuf};
+
+use ttb_bridge::Bridge;
+use ttb_contract::Model;
+use ttb_model_description::package::LIBRARY_EXTENSION;
+use ttb_model_description::{About, Contents, pack};
+use ttb_scenario::Checked;
+use ttb_train_track::TrainTrack;
+
+use crate::error::Error;
+
+/// The FMUs that were written.
+pub struct Built {
+    /// TrainTrack.fmu.
+    pub train_track: PathBuf,
+    /// Bridge.fmu.
+    pub bridge: PathBuf,
+}
+
+/// One of our FMUs: model identifier, shared library, purpose.
+struct Kind {
+    identifier: &'static str,
+    library: &'static str,
+    description: &'static str,
+}
+
+const TRAIN_TRACK: Kind = Kind {
+    identifier: "TrainTrack",
+    library: "fmu_train_track",
+    description: "Railway cars (10 degrees of freedom each) on rail and supports with Hertzian wheel-rail contact. Inputs: \
+                  motion of the bridge deck under the supports; outputs: forces of the supports on the deck, and results of \
+                  train and wheels. Vertical plane, z down; displacements are changes from the dead-load state.",
+};
+const BRIDGE: Kind = Kind {
+    identifier: "Bridge",
+    library: "fmu_bridge",
+    description: "A bridge of finite elements. Inputs: forces of the track's supports on the deck; outputs: motion of the deck \
+                  under the supports, and monitored points. Vertical plane, z down; displacements are changes from the \
+                  dead-load state.",
+};
+
+/// Loads and checks the scenario, the bundled one if none is named; prints its warnings.
+pub fn scenario(path: Option<&Path>) -> Result<Checked, Error> {
+    let checked = match path {
+        Some(path) => ttb_scenario::load(path),
+        None => ttb_scenario::from_str(ttb_scenario::default_scenario_text(), Path::new(""), "the bundled scenario"),
+    };
+    let checked = checked.map_err(Error::Scenario)?;
+    for warning in &checked.warnings {
+        eprintln!("ttb: warning: {warning}");
+    }
+    Ok(checked)
+}
+
+/// Writes TrainTrack.fmu and Bridge.fmu into `folder`.
+pub fn build(checked: &Checked, folder: &Path) -> Result<Built, Error> {
+    std::fs::create_dir_all(folder).map_err(Error::io(folder))?;
+    Ok(Built { train_track: train_track(checked, folder)?, bridge: bridge(checked, folder)? })
+}
+
+/// Writes TrainTrack.fmu.
+pub fn train_track(checked: &Checked, folder: &Path) -> Result<PathBuf, Error> {
+    let model = TrainTrack::new(checked.train_track.clone()).map_err(|e| Error::Input(e.to_string()))?;
+    let text = serde_json::to_vec(&checked.train_track).map_err(|e| Error::Pack(format!("train-track.json: {e}")))?;
+    write(&TRAIN_TRACK, &model, &[("train-track.json", text)], folder)
+}
+
+/// Writes Bridge.fmu.
+pub fn bridge(checked: &Checked, folder: &Path) -> Result<PathBuf, Error> {
+    let model = Bridge::new(checked.bridge.clone()).map_err(|e| Error::Input(e.to_string()))?;
+    if let Some(a) = model.accuracy() {
+        eprintln!(
+            "ttb: the bridge is reduced to {} modes up to {:.0} Hz and {} pseudo-modes; under a probe load displacements \
+             differ by {:.1e} and accelerations by {:.1e} of their greatest from all {} degrees of freedom",
+            a.modes,
+            a.highest_frequency,
+            a.pseudo_modes,
+            a.displacement,
+            a.acceleration,
+            model.ndof()
+        );
+    }
+    let files = model.resources(&checked.bridge).map_err(|e| Error::Pack(e.to_string()))?;
+    write(&BRIDGE, &model, &files, folder)
+}
+
+/// Writes the FMU of a model with its resources, name and content of each.
+fn write<M: Model>(kind: &Kind, model: &M, files: &[(&str, Vec<u8>)], folder: &Path) -> Result<PathBuf, Error> {
+    let resources = tempfile::tempdir().map_err(Error::io(Path::new("temporary folder")))?;
+    for (name, content) in files {
+        let path = resources.path().join(name);
+        std::fs::write(&path, content).map_err(Error::io(&path))?;
+    }
+    let path = folder.join(format!("{}.fmu", kind.identifier));
+    let contents = Contents {
+        interface: model.interface(),
+        about: &About::of(model, kind.identifier, kind.identifier, kind.description),
+        binary: &library(kind.library)?,
+        resources: Some(resources.path()),
+        licenses: &[("license.txt", include_str!("../../../LICENSE"))],
+    };
+    pack(&contents, &path).map_err(|e| Error::Pack(e.to_string()))?;
+    Ok(path)
+}
+
+/// The shared library beside this program, or where cargo puts it.
+fn library(name: &str) -> Result<PathBuf, Error> {
+    let file = format!("{}{name}.{LIBRARY_EXTENSION}", std::env::consts::DLL_PREFIX);
+    let program = std::env::current_exe().map_err(Error::io(Path::new("this program")))?;
+    let folder = program.parent().unwrap_or(Path::new("."));
+    let places = [folder.join("deps"), folder.to_path_buf(), folder.join("../lib/ttb")].map(|p| p.join(&file));
+    places.iter().find(|p| p.is_file()).cloned().ok_or_else(|| {
+        Error::Pack(format!(
+            "the shared library {file} is missing; it was looked for in deps/ and beside {}",
+            program.display()
+        ))
+    })
+}

@@ -1,0 +1,5 @@
+//! From a scenario to what is run: its FMUs and its steps.
+
+pub mod auto;
+pub mod fmus;
+mod stretch;

@@ -1,0 +1,10 @@
+//! What a run leaves behind: rows as they come, extremes, the summary.
+
+pub mod choice;
+pub mod coupled;
+pub mod job;
+pub mod names;
+pub mod peaks;
+pub mod ran;
+pub mod record;
+pub mod summary;
