@@ -1,7 +1,8 @@
 //! The commands of `ttb` as a library, from the lowest room up:
 //!
 //! ```text
-//! error, clock, cli       what ends a command, processor time, the command line
+//! error, files, clock      what ends a command, files that are whole or not there, processor time
+//! cli                     the command line
 //! connect                 from FMU files to two coupled subsystems
 //! results                 what a run leaves: rows, peaks, summary
 //! pictures                histories and errors drawn as SVG and PNG
@@ -25,6 +26,7 @@ pub mod clock;
 pub mod commands;
 pub mod connect;
 pub mod error;
+pub mod files;
 pub mod pictures;
 pub mod prepare;
 pub mod results;

@@ -17,7 +17,7 @@ use super::progress::progress_bar;
 use super::signals::stop_on_interrupt;
 use crate::cli::Accuracy;
 use crate::error::Error;
-use crate::pictures::canvas::{rounded, save};
+use crate::files::write;
 use crate::pictures::slopes::{Kind, Slopes};
 use crate::prepare::auto::decided;
 use crate::results::names::{is_quantity, kind};
@@ -50,13 +50,9 @@ pub fn accuracy(arguments: &Accuracy) -> Result<(), Error> {
     }
     let kinds: Vec<Kind> = kinds.into_values().collect();
     let text = markdown(&checked, &steps, fine, &kinds);
-    let write = |name: &str, text: &str| {
-        let path = folder.join(name);
-        std::fs::write(&path, text).map_err(Error::io(&path))
-    };
-    write("accuracy.md", &text)?;
-    write("accuracy.csv", &csv(&steps, &kinds))?;
-    save(&Slopes { title: &checked.scenario.title, steps: &steps, kinds: &kinds }, &folder.join("accuracy"))?;
+    write(&folder.join("accuracy.md"), text.as_bytes())?;
+    write(&folder.join("accuracy.csv"), csv(&steps, &kinds).as_bytes())?;
+    Slopes { title: &checked.scenario.title, steps: &steps, kinds: &kinds }.save(&folder.join("accuracy"))?;
     say!("{text}");
     say!("results in {}", folder.display());
     Ok(())
@@ -129,11 +125,11 @@ fn markdown(checked: &Checked, steps: &[f64], fine: f64, kinds: &[Kind]) -> Stri
         "{}, against steps of {} ms. History: greatest difference at any time; peak: difference of the greatest values; \
          both in percent of the greatest value of the kind.\n\n| quantity |",
         checked.scenario.title,
-        rounded(1e3 * fine)
+        milliseconds(fine)
     );
     for h in steps {
         // Writing to a string does not fail.
-        let _ = write!(text, " {} ms: history, peak |", rounded(1e3 * h));
+        let _ = write!(text, " {} ms: history, peak |", milliseconds(*h));
     }
     text += "\n|---|";
     steps.iter().for_each(|_| text += "---|");
@@ -154,6 +150,11 @@ fn csv(steps: &[f64], kinds: &[Kind]) -> String {
         }
     }
     text
+}
+
+/// A step for people, in ms without rounding noise.
+fn milliseconds(h: f64) -> f64 {
+    (1e9 * h).round() * 1e-6
 }
 
 /// Two significant digits of a percentage.

@@ -134,7 +134,7 @@ fn run_connected(
     let recorder = Recorder::new(folder, train_track, bridge, output.supports, output.every, axis.steps())?;
     let mut log = Log {
         peaks: Peaks::new(&recorder),
-        plot: Plot::new(&recorder, axis.steps()),
+        plot: Plot::new(&recorder, &job.scene, job.end),
         recorder,
         iterations: Iterations::default(),
         recording: 0.0,
@@ -262,8 +262,6 @@ fn finish(
     if !quiet {
         summary.print(folder);
     }
-    let picture = folder.join("results.svg");
-    let drawn = log.plot.draw(&picture, &job.title);
-    let drawn = drawn.map_err(|e| Error::Io { path: picture, source: std::io::Error::other(e) });
+    let drawn = log.plot.draw(folder, &job.title);
     outcome.and(written).and(drawn)
 }

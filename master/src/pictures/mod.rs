@@ -1,6 +1,9 @@
 //! Histories and errors, drawn.
 
-pub mod canvas;
+mod canvas;
+mod envelope;
 pub mod figures;
+mod panel;
+mod pen;
 pub mod plot;
 pub mod slopes;

@@ -1,4 +1,4 @@
-//! results.svg: deck displacement, deck acceleration, car acceleration and contact force over time.
+//! results.svg and results.png: deck displacement, deck acceleration, car acceleration and contact force over time.
 
 use std::ops::Range;
 use std::path::Path;
@@ -6,132 +6,178 @@ use std::path::Path;
 use plotters::coord::Shift;
 use plotters::prelude::*;
 
-use super::canvas::register_letters;
+use super::canvas::{Drawing, Failed, SANS, save};
+use super::envelope::Envelope;
+use super::panel::{Curve, Panel, Stroke, names};
+use crate::error::Error;
 use crate::results::record::Recorder;
+use crate::results::scene::Scene;
 
-/// A panel: variables by the begin and end of their names, at most this many, and how they are shown.
-struct Panel {
+/// A panel: variables by the begin and end of their names, and how they are shown.
+struct Kind {
     title: &'static str,
     begin: &'static str,
     end: &'static str,
     factor: f64,
+    /// Of monitored points: those that move down with the deck, or the others.
+    aside: bool,
 }
 
-const PANELS: [Panel; 4] = [
-    Panel { title: "Deck displacement, mm (down)", begin: "point[", end: "].displacement", factor: 1e3 },
-    Panel { title: "Deck acceleration, m/s² (down)", begin: "point[", end: "].acceleration", factor: 1.0 },
-    Panel { title: "Car body acceleration, m/s² (down)", begin: "car[", end: "].acceleration", factor: 1.0 },
-    Panel { title: "Contact force of a wheelset, kN", begin: "wheel[", end: "].contact_force", factor: 1e-3 },
+const KINDS: [Kind; 6] = [
+    Kind { title: "Deck displacement, mm (down)", begin: "point[", end: "].displacement", factor: 1e3, aside: false },
+    Kind {
+        title: "Deck acceleration, m/s² (down)", begin: "point[", end: "].acceleration", factor: 1.0, aside: false
+    },
+    Kind { title: "Other points, displacement, mm", begin: "point[", end: "].displacement", factor: 1e3, aside: true },
+    Kind {
+        title: "Other points, acceleration, m/s²",
+        begin: "point[",
+        end: "].acceleration",
+        factor: 1.0,
+        aside: true,
+    },
+    Kind {
+        title: "Car body acceleration, m/s² (down)",
+        begin: "car[",
+        end: "].acceleration",
+        factor: 1.0,
+        aside: false,
+    },
+    Kind {
+        title: "Contact force of a wheelset, kN",
+        begin: "wheel[",
+        end: "].contact_force",
+        factor: 1e-3,
+        aside: false,
+    },
 ];
 /// Curves in a panel at most: the first, the last and some in between.
 const CURVES: usize = 3;
-/// Points of a curve at most: each column of pixels keeps its extremes.
-const POINTS: usize = 1600;
-const COLORS: [RGBColor; CURVES] = [RGBColor(31, 85, 142), RGBColor(214, 96, 36), RGBColor(64, 140, 88)];
+/// Size of the picture: its width, a panel's height, and the strips with the title and with the curves' names.
+const SIZE: [u32; 2] = [1200, 240];
+const TITLE: f64 = 40.0;
+const NAMES: f64 = 190.0;
+/// What the shaded stretch of time is called.
+const SHADED: &str = "train on the bridge";
 
-/// Time series of the variables that are drawn.
+/// Time series of the variables that are drawn, thinned as they come.
 pub struct Plot {
-    time: Vec<f64>,
-    curves: Vec<Curve>,
+    curves: Vec<Series>,
+    stay: Stay,
+    end: f64,
 }
 
-struct Curve {
-    panel: usize,
+struct Series {
+    kind: usize,
     column: usize,
     name: String,
-    values: Vec<f64>,
+    envelope: Envelope,
+}
+
+/// When the train is on the bridge, from the positions of its first and last wheel.
+struct Stay {
+    deck: Option<[f64; 2]>,
+    wheels: Option<[usize; 2]>,
+    from: Option<f64>,
+    to: Option<f64>,
 }
 
 impl Plot {
-    /// Chooses the variables; `steps` is the number of rows to come.
-    pub fn new(recorder: &Recorder, steps: u64) -> Self {
-        let rows = steps as usize + 1;
+    /// Chooses the variables of a run to `end` s.
+    pub fn new(recorder: &Recorder, scene: &Scene, end: f64) -> Self {
         let mut curves = Vec::new();
-        for (panel, Panel { begin, end, .. }) in PANELS.iter().enumerate() {
-            let matches: Vec<usize> = (0..recorder.columns.len())
-                .filter(|i| recorder.columns[*i].name.contains(begin) && recorder.columns[*i].name.ends_with(end))
-                .collect();
+        for (kind, Kind { begin, end: ending, aside, .. }) in KINDS.iter().enumerate() {
+            let columns = recorder.columns.iter().map(|column| column.name.as_str()).enumerate();
+            let of_kind = columns.filter(|(_, name)| name.contains(begin) && name.ends_with(ending));
+            let matches: Vec<(usize, &str)> =
+                of_kind.filter(|(_, name)| scene.direction(name).is_some() == *aside).collect();
             let count = matches.len().min(CURVES);
             let chosen = (0..count).map(|i| matches[if count > 1 { i * (matches.len() - 1) / (count - 1) } else { 0 }]);
-            curves.extend(chosen.map(|column| {
-                let name = recorder.columns[column].name.split_inclusive(']').next().unwrap_or_default().to_string();
-                Curve { panel, column, name, values: Vec::with_capacity(rows) }
+            curves.extend(chosen.map(|(column, name)| {
+                let how = scene.direction(name).map_or_else(String::new, |how| format!(" {how}"));
+                Series { kind, column, name: short(name) + &how, envelope: Envelope::new(0.0, end) }
             }));
         }
-        Self { time: Vec::with_capacity(rows), curves }
+        let wheels: Vec<usize> = (1..).map_while(|wheel| recorder.find(&format!("wheel[{wheel}].position"))).collect();
+        let wheels = wheels.first().zip(wheels.last()).map(|(first, last)| [*first, *last]);
+        Self { curves, stay: Stay { deck: scene.deck, wheels, from: None, to: None }, end }
     }
 
     /// Takes in a row.
     pub fn update(&mut self, row: &[f64], time: f64) {
-        self.time.push(time);
-        self.curves.iter_mut().for_each(|c| c.values.push(row[c.column]));
+        self.curves
+            .iter_mut()
+            .for_each(|series| series.envelope.add(time, row[series.column] * KINDS[series.kind].factor));
+        self.stay.update(row, time);
     }
 
-    /// Draws the picture; the message says what went wrong.
-    pub fn draw(&self, path: &Path, title: &str) -> Result<(), String> {
-        register_letters();
-        let root = SVGBackend::new(path, (1200, 1000)).into_drawing_area();
-        self.draw_on(&root, title).map_err(|e| e.to_string())
+    /// Draws results.svg and results.png into a folder.
+    pub fn draw(&self, folder: &Path, title: &str) -> Result<(), Error> {
+        let of_kind = |kind: usize| {
+            let series = self.curves.iter().filter(|series| series.kind == kind).enumerate();
+            let curve = |(place, series): (usize, &Series)| Curve {
+                name: series.name.clone(),
+                points: series.envelope.points(),
+                stroke: Stroke::of(place),
+            };
+            series.map(curve).collect::<Vec<Curve>>()
+        };
+        let panels = (0..KINDS.len()).map(|kind| (KINDS[kind].title, of_kind(kind)));
+        let panels = panels.filter(|(_, curves)| !curves.is_empty()).collect();
+        save(
+            &Results { title, time: 0.0..self.end, shaded: self.stay.range(self.end), panels },
+            &folder.join("results"),
+        )
     }
+}
 
-    fn draw_on(
-        &self,
-        root: &DrawingArea<SVGBackend, Shift>,
-        title: &str,
-    ) -> Result<(), Box<dyn std::error::Error + '_>> {
-        root.fill(&WHITE)?;
-        let root = root.titled(title, ("sans-serif", 20))?;
-        let end = self.time.last().copied().unwrap_or(1.0);
-        for (panel, area) in root.split_evenly((4, 1)).iter().enumerate() {
-            let Panel { title, factor, .. } = PANELS[panel];
-            let curves: Vec<&Curve> = self.curves.iter().filter(|c| c.panel == panel).collect();
-            let mut chart = ChartBuilder::on(area)
-                .caption(title, ("sans-serif", 15))
-                .margin_right(20)
-                .x_label_area_size(if panel == 3 { 36 } else { 22 })
-                .y_label_area_size(60)
-                .build_cartesian_2d(0.0..end, limits(&curves, factor))?;
-            let mut mesh = chart.configure_mesh();
-            mesh.light_line_style(WHITE).x_labels(10).y_labels(5);
-            if panel == 3 {
-                mesh.x_desc("time, s");
-            }
-            mesh.draw()?;
-            for (curve, color) in curves.iter().zip(COLORS) {
-                let points = thin(&self.time, &curve.values).map(|(t, x)| (t, x * factor));
-                let series = LineSeries::new(points, color.stroke_width(1));
-                chart
-                    .draw_series(series)?
-                    .label(&curve.name)
-                    .legend(move |(x, y)| PathElement::new([(x, y), (x + 14, y)], color));
-            }
-            if !curves.is_empty() {
-                chart
-                    .configure_series_labels()
-                    .position(SeriesLabelPosition::UpperRight)
-                    .background_style(WHITE.mix(0.8))
-                    .draw()?;
-            }
+/// `A` of `point[A].displacement`, `car 1` of `car[1].acceleration`.
+fn short(name: &str) -> String {
+    let short = name.rsplit_once("].").map_or(name, |(short, _)| short);
+    short.replace("point[", "").replace('[', " ")
+}
+
+impl Stay {
+    fn update(&mut self, row: &[f64], time: f64) {
+        let Some(([begin, end], [first, last])) = self.deck.zip(self.wheels) else { return };
+        if self.from.is_none() && row[first] >= begin {
+            self.from = Some(time);
         }
-        root.present()?;
+        if self.to.is_none() && row[last] > end {
+            self.to = Some(time);
+        }
+    }
+
+    fn range(&self, end: f64) -> Option<Range<f64>> {
+        Some(self.from?..self.to.unwrap_or(end))
+    }
+}
+
+struct Results<'a> {
+    title: &'a str,
+    time: Range<f64>,
+    shaded: Option<Range<f64>>,
+    panels: Vec<(&'static str, Vec<Curve>)>,
+}
+
+impl Drawing for Results<'_> {
+    fn size(&self) -> (u32, u32) {
+        (SIZE[0], TITLE as u32 + SIZE[1] * self.panels.len().max(1) as u32)
+    }
+
+    fn draw<'a, B: DrawingBackend + 'a>(&self, root: &DrawingArea<B, Shift>, scale: f64) -> Result<(), Failed<'a>>
+    where
+        B::ErrorType: 'static,
+    {
+        root.fill(&WHITE)?;
+        let below = root.margin((8.0 * scale) as u32, 0, 0, 0).titled(self.title, (SANS, 20.0 * scale))?;
+        let count = self.panels.len();
+        for ((at, (title, curves)), area) in self.panels.iter().enumerate().zip(below.split_evenly((count.max(1), 1))) {
+            let (chart, beside) = area.split_horizontally(area.dim_in_pixel().0 - (NAMES * scale) as u32);
+            let (title, names_time, time) = (title.to_string(), at + 1 == count, self.time.clone());
+            Panel { title, time, names_time, shaded: self.shaded.clone(), curves }.draw(&chart, scale)?;
+            names(&beside, curves, self.shaded.as_ref().filter(|_| at == 0).map(|_| SHADED), scale)?;
+        }
         Ok(())
     }
-}
-
-/// Range of the curves, a little wider.
-fn limits(curves: &[&Curve], factor: f64) -> Range<f64> {
-    let values = || curves.iter().flat_map(|c| &c.values).map(|x| x * factor).filter(|x| x.is_finite());
-    let (low, high) = (values().fold(f64::INFINITY, f64::min), values().fold(f64::NEG_INFINITY, f64::max));
-    let margin = 0.05 * (high - low);
-    if margin > 0.0 { low - margin..high + margin } else { -1.0..1.0 }
-}
-
-/// At most `POINTS` points that keep the extremes of every stretch.
-fn thin<'a>(time: &'a [f64], values: &'a [f64]) -> impl Iterator<Item = (f64, f64)> + 'a {
-    let stretch = (2 * values.len()).div_ceil(POINTS).max(1);
-    time.chunks(stretch).zip(values.chunks(stretch)).flat_map(|(t, v)| {
-        let low = (0..v.len()).min_by(|a, b| v[*a].total_cmp(&v[*b])).unwrap_or(0);
-        let high = (0..v.len()).max_by(|a, b| v[*a].total_cmp(&v[*b])).unwrap_or(0);
-        [low.min(high), low.max(high)].map(|i| (t[i], v[i]))
-    })
 }

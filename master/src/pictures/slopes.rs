@@ -1,9 +1,13 @@
 //! Error over step, both axes logarithmic, a line a quantity.
 
+use std::path::Path;
+
 use plotters::coord::Shift;
 use plotters::prelude::*;
 
-use super::canvas::{Drawing, Failed, SANS};
+use super::canvas::{Drawing, Failed, SANS, save};
+use super::panel::label;
+use crate::error::Error;
 
 /// A quantity: all outputs of equal name but for number or name in brackets.
 pub struct Kind {
@@ -28,6 +32,13 @@ pub struct Slopes<'a> {
 const LEAST: f64 = 1e-8;
 /// Width of the strip with the names.
 const NAMES: f64 = 290.0;
+
+impl Slopes<'_> {
+    /// Draws FILE.svg and FILE.png.
+    pub fn save(&self, stem: &Path) -> Result<(), Error> {
+        save(self, stem)
+    }
+}
 
 impl Drawing for Slopes<'_> {
     fn size(&self) -> (u32, u32) {
@@ -54,8 +65,8 @@ impl Drawing for Slopes<'_> {
             .y_label_area_size(px(70.0))
             .build_cartesian_2d((0.9 * first..1.1 * last).log_scale(), (0.5 * low..2.0 * high).log_scale())?;
         let mut mesh = chart.configure_mesh();
-        mesh.light_line_style(WHITE).x_desc("step, ms").y_desc("greatest error of the history, relative");
-        mesh.y_label_formatter(&|y| format!("{y:.0e}"));
+        mesh.light_line_style(TRANSPARENT).x_desc("step, ms").y_desc("greatest error of the history, relative");
+        mesh.y_label_formatter(&|y| format!("{y:.0e}")).x_label_formatter(&|h| one_two_five(*h));
         mesh.label_style(letters(12.0)).axis_desc_style(letters(13.0)).draw()?;
         for (at, kind) in self.kinds.iter().enumerate() {
             let color = HSLColor(at as f64 / self.kinds.len() as f64, 0.75, 0.42);
@@ -69,4 +80,10 @@ impl Drawing for Slopes<'_> {
         }
         Ok(())
     }
+}
+
+/// 0.1, 0.2, 0.5, 1 …; what is between has no room on a logarithmic axis.
+fn one_two_five(h: f64) -> String {
+    let first = h / 10_f64.powf((h.log10() + 1e-9).floor());
+    if [1.0, 2.0, 5.0].iter().any(|digit| (first - digit).abs() < 1e-6) { label(h, h) } else { String::new() }
 }

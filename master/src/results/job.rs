@@ -5,6 +5,7 @@ use ttb_scenario::spec::Profile;
 use ttb_scenario::types::Output;
 
 use super::choice::Choice;
+use super::scene::Scene;
 
 /// A run to be done.
 pub struct Job {
@@ -24,6 +25,8 @@ pub struct Job {
     pub end: f64,
     /// What is recorded.
     pub output: Output,
+    /// What a picture needs to know.
+    pub scene: Scene,
 }
 
 /// Fingerprint (SHA-256) of a run's origin.
@@ -49,6 +52,7 @@ impl Job {
             choice,
             end: checked.train_track.end,
             output: checked.scenario.output,
+            scene: Scene::new(checked),
         }
     }
 }

@@ -7,4 +7,5 @@ pub mod names;
 pub mod peaks;
 pub mod ran;
 pub mod record;
+pub mod scene;
 pub mod summary;

@@ -19,6 +19,7 @@ use crate::connect::connected::{Bridge, Connected, couple, instantiate};
 use crate::connect::isolate::{self, Isolated};
 use crate::error::Error;
 use crate::results::job::{Job, Origin};
+use crate::results::scene::Scene;
 
 /// A system structure that can be run.
 pub struct Opened {
@@ -80,6 +81,7 @@ impl Opened {
             choice: None,
             end,
             output: settings.output,
+            scene: Scene::default(),
         };
         if isolation.is_some() && isolated.train_track.is_none() {
             fmus[train_track] = ttb_fmi2::import::open(&folder.path().join(&components[train_track].source))?;
