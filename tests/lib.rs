@@ -1,15 +1,13 @@
 //! Shared by the tests of the whole: a scenario run without FMUs, and the table it gives.
 
-use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
 use ttb_bridge::Bridge;
-use ttb_contract::{InProcess, Model};
-use ttb_coupling::iteration::IterationError;
-use ttb_coupling::run::{TimeAxis, run};
-use ttb_coupling::{Coupling, StepInfo, Work};
+use ttb_contract::{Ports, Subsystem};
+use ttb_coupling::{Coupling, Report, StepInfo, Work};
 use ttb_scenario::Checked;
 use ttb_scenario::spec::StructureSpec;
+use ttb_session::{Case, Column, Coupled, Ended, Observer, Plan, RunError, Sides, drive};
 use ttb_train_track::TrainTrack;
 
 /// Results by name, one vector over time each, row 0 at t = 0.
@@ -76,32 +74,31 @@ pub fn r1_with(mass: f64, h: f64) -> Checked {
     checked
 }
 
-/// Both subsystems in initialization mode, wired by equal names, and the value references of their outputs.
-pub struct Pair {
-    /// The train–track subsystem.
-    pub train_track: InProcess<TrainTrack>,
-    /// The bridge subsystem.
-    pub bridge: InProcess<Bridge>,
-    /// Where they touch.
-    pub ports: ttb_contract::Ports,
-    outputs: [(Vec<String>, Vec<u32>); 2],
-}
-
-/// Makes the pair of a scenario.
+/// Both subsystems of a scenario in initialization mode, and their coupling.
 ///
 /// # Panics
 /// A subsystem refuses its data.
-pub fn pair(checked: &Checked) -> Pair {
+pub fn sides(checked: &Checked) -> Sides<TrainTrack, Bridge> {
     let train_track = TrainTrack::new(checked.train_track.clone()).expect("train and track");
     let bridge = Bridge::new(checked.bridge.clone()).expect("bridge");
-    let outputs = [train_track.interface(), bridge.interface()].map(|interface| {
-        let names = interface.outputs().map(|r| interface.variables()[r].name.clone());
-        (names.collect(), interface.outputs().map(|r| r as u32).collect())
-    });
-    let ttb_contract::Pair { train_track, bridge, ports } =
-        ttb_contract::Pair::new(train_track, bridge, checked.settings().force_scale, |force| checked.sent_force(force))
-            .expect("initialization");
-    Pair { train_track, bridge, ports, outputs }
+    Sides::new(train_track, bridge, &Case::of(checked)).expect("initialization")
+}
+
+/// Takes all steps of a case with any two subsystems; what the coupling found out is told, too.
+///
+/// # Errors
+/// The run fails.
+pub fn run(
+    case: &Case,
+    ports: Ports,
+    [train_track, bridge]: [&mut dyn Subsystem; 2],
+    observers: &mut [&mut dyn Observer],
+) -> (Result<Ended, RunError>, Report) {
+    let mut coupling = Coupling::new(ports, case.settings);
+    let mut coupled = Coupled::new(train_track, bridge, &mut coupling);
+    let plan = Plan { axis: case.axis(), wanted: &|_: &Column| true, clock: &|| 0.0 };
+    let ended = drive(&mut coupled, &plan, observers);
+    (ended, coupling.report().clone())
 }
 
 /// The hybrid algorithm on the plain libraries; every output of both subsystems is kept.
@@ -109,38 +106,17 @@ pub fn pair(checked: &Checked) -> Pair {
 /// # Panics
 /// The run fails.
 pub fn library_run(checked: &Checked) -> Table {
-    let Pair { mut train_track, mut bridge, ports, outputs } = pair(checked);
-    let mut coupling = Coupling::new(ports.forces(), ports.motions(), checked.settings());
-    coupling.initialise(&mut train_track, &mut bridge, 0.0).expect("static equilibrium");
-    let names = outputs.iter().enumerate().flat_map(|(i, (names, _))| {
-        // Motions of the supports stand on both sides; the bridge's are outputs, the other side's inputs.
-        names.iter().map(move |n| (i, n.clone()))
-    });
-    let mut table = Table {
-        time: Vec::new(),
-        columns: names.map(|(_, n)| (n, Vec::new())).collect(),
-        steps: Vec::new(),
-        work: Work::default(),
-    };
-    let mut row = vec![0.0; table.columns.len()];
-    let mut record =
-        |train_track: &mut InProcess<TrainTrack>, bridge: &mut InProcess<Bridge>, t: f64, table: &mut Table| {
-            let (first, second) = row.split_at_mut(outputs[0].1.len());
-            train_track.instance().get(&outputs[0].1, first).expect("outputs");
-            bridge.instance().get(&outputs[1].1, second).expect("outputs");
-            table.time.push(t);
-            table.columns.iter_mut().zip(&row).for_each(|((_, column), x)| column.push(*x));
-        };
-    record(&mut train_track, &mut bridge, 0.0, &mut table);
-    let axis = TimeAxis::new(checked.steps().step, checked.train_track.end);
-    let ended = run(&mut coupling, &mut train_track, &mut bridge, axis, |train_track, bridge, _, t, info| {
-        record(train_track, bridge, t, &mut table);
-        table.steps.push(*info);
-        Ok::<_, IterationError>(ControlFlow::Continue(()))
-    });
-    assert!(ended.expect("run").is_continue());
-    table.work = coupling.report().work;
-    table
+    let (case, mut sides, mut table) = (Case::of(checked), sides(checked), ttb_session::Table::default());
+    let plan = Plan { axis: case.axis(), wanted: &|_: &Column| true, clock: &|| 0.0 };
+    let ended = sides.run(&plan, &mut [&mut table]).expect("run");
+    assert_eq!(ended, Ended::Complete);
+    let names = table.columns.iter().map(ToString::to_string);
+    Table {
+        columns: names.zip(table.values).collect(),
+        time: table.time,
+        steps: table.steps,
+        work: sides.coupling.report().work,
+    }
 }
 
 /// A results.csv: names and values of its columns.

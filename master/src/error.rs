@@ -5,6 +5,8 @@ use std::path::{Path, PathBuf};
 use ttb_coupling::IterationError;
 use ttb_fmi::FmuError;
 use ttb_scenario::Problems;
+use ttb_session::RunError;
+use ttb_session::error::Refusal;
 
 /// Why a command failed.
 #[derive(Debug, thiserror::Error)]
@@ -23,7 +25,7 @@ pub enum Error {
     Fmu(String),
     /// A bridge FMU that says it rolls back, and does not: it is to be run as one that does not.
     #[error("{0}")]
-    Lies(String),
+    NoReturn(String),
     /// A file.
     #[error("{}: {source}", path.display())]
     Io {
@@ -55,7 +57,7 @@ impl Error {
             Self::Findings { .. } => 1,
             Self::Scenario(_) | Self::Input(_) => 2,
             Self::NotConverged(_) => 3,
-            Self::Fmu(_) | Self::Lies(_) => 4,
+            Self::Fmu(_) | Self::NoReturn(_) => 4,
             Self::Io { .. } | Self::Pack(_) => 5,
             Self::Interrupted => 130,
         }
@@ -66,7 +68,7 @@ impl Error {
         match self {
             Self::Scenario(_) | Self::Input(_) => "bad-input",
             Self::NotConverged(_) => "not-converged",
-            Self::Fmu(_) | Self::Lies(_) => "fmu-failed",
+            Self::Fmu(_) | Self::NoReturn(_) => "fmu-failed",
             Self::Io { .. } | Self::Pack(_) => "io-failed",
             Self::Findings { .. } => "findings",
             Self::Interrupted => "interrupted",
@@ -83,11 +85,24 @@ impl Error {
 impl From<IterationError> for Error {
     fn from(error: IterationError) -> Self {
         match error {
-            IterationError::Subsystem(failure) => Self::Fmu(failure.to_string()),
-            lie @ IterationError::NoReturn { .. } => {
-                Self::Fmu(format!("{lie}; \"roll_back\": false in the bridge's map (--map) does without"))
+            failed @ (IterationError::Subsystem(_) | IterationError::NotFinite { .. }) => Self::Fmu(failed.to_string()),
+            error @ IterationError::NoReturn { .. } => {
+                Self::Fmu(format!("{error}; \"roll_back\": false in the bridge's map (--map) does without"))
             }
             other => Self::NotConverged(other),
+        }
+    }
+}
+
+impl From<RunError> for Error {
+    fn from(error: RunError) -> Self {
+        match error {
+            RunError::Iteration(error) => error.into(),
+            RunError::Subsystem(failure) => Self::Fmu(failure.to_string()),
+            RunError::Refused(Refusal::Input(text)) => Self::Input(text),
+            RunError::Refused(Refusal::Subsystem(text)) => Self::Fmu(text),
+            RunError::Refused(Refusal::NoReturn(text)) => Self::NoReturn(text),
+            RunError::Write { what, source } => Self::Io { path: what.into(), source },
         }
     }
 }

@@ -1,15 +1,12 @@
 //! Trials a step by method, step and mass of the bridge, on R1 and on the default example:
 //! `cargo bench -p ttb-tests --bench coupling [-- METHOD… PREDICTOR…]`.
 
-use std::ops::ControlFlow;
 use std::time::Instant;
 
-use ttb_coupling::iteration::{Coupling, IterationError};
-use ttb_coupling::predictor::Predictor;
-use ttb_coupling::run::{TimeAxis, run};
-use ttb_coupling::{Method, Settings};
+use ttb_coupling::{Coupling, Method, Predictor, Settings};
 use ttb_scenario::Checked;
-use ttb_tests::{Pair, example, pair, r1_with};
+use ttb_session::{Case, Plan, Sides, Table};
+use ttb_tests::{example, r1_with, sides};
 
 fn main() {
     let words: Vec<String> = std::env::args().skip(1).filter(|a| !a.starts_with("--")).collect();
@@ -37,7 +34,7 @@ fn main() {
     for (name, checked) in &cases {
         for (predictor_name, predictor) in predictors.iter().filter(|p| asked(p.0, &predictor_names)) {
             for method in methods.iter().filter(|m| asked(m.name(), &names)) {
-                let mut settings = checked.settings();
+                let mut settings = Case::of(checked).settings;
                 (settings.method, settings.predictor) = (*method, *predictor);
                 settings.reuse = reuse.unwrap_or(settings.reuse);
                 println!("{name}, {predictor_name:9}, {:11} {}", method.name(), describe(checked, settings));
@@ -47,20 +44,16 @@ fn main() {
 }
 
 fn describe(checked: &Checked, settings: Settings) -> String {
-    let axis = TimeAxis::new(checked.train_track.step, checked.train_track.end);
-    let Pair { mut train_track, mut bridge, ports, .. } = pair(checked);
-    let mut coupling = Coupling::new(ports.forces(), ports.motions(), settings);
-    coupling.initialise(&mut train_track, &mut bridge, 0.0).expect("static equilibrium");
-    let (mut trials, mut alone, mut most, mut rescues) = (0, 0, 0, 0);
+    let (axis, mut sides, mut table) = (Case::of(checked).axis(), sides(checked), Table::default());
+    sides.coupling = Coupling::new(sides.coupling.ports().clone(), settings);
     let begin = Instant::now();
-    let ended = run(&mut coupling, &mut train_track, &mut bridge, axis, |_, _, _, _, info| {
-        trials += info.iterations;
-        alone += info.train_track_trials;
-        most = most.max(info.iterations);
-        rescues += info.rescues;
-        Ok::<_, IterationError>(ControlFlow::Continue(()))
-    });
+    let plan = Plan { axis, wanted: &|_| false, clock: &|| 0.0 };
+    let ended = sides.run(&plan, &mut [&mut table]);
+    let Sides { coupling, .. } = &sides;
     let report = coupling.report();
+    let sum = |of: fn(&ttb_coupling::StepInfo) -> usize| table.steps.iter().map(of).sum::<usize>();
+    let (trials, alone, rescues) = (sum(|s| s.iterations), sum(|s| s.train_track_trials), sum(|s| s.rescues));
+    let most = table.steps.iter().map(|s| s.iterations).max().unwrap_or(0);
     let (rho, extra) = (report.contraction.unwrap_or(f64::NAN), report.identification_trials);
     let steps = axis.steps() as f64;
     let micros = 1e6 * begin.elapsed().as_secs_f64() / steps;

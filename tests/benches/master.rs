@@ -5,9 +5,8 @@ mod trivial;
 
 use std::time::Instant;
 
-use ttb_coupling::iteration::{OnFailure, Settings};
-use ttb_coupling::predictor::Predictor;
-use ttb_coupling::{Coupling, Method};
+use ttb_contract::{Component, Known, Port, Ports, Subsystem};
+use ttb_coupling::{Coupling, Method, OnFailure, Predictor, Settings};
 use ttb_fmi::FmuSubsystem;
 
 use trivial::{N, pack};
@@ -33,15 +32,13 @@ fn main() {
     ] {
         let mut train_track = make("Front", &motions, &forces, "0.03");
         let mut bridge = make("Back", &forces, &motions, "1.0");
-        let mut coupling = Coupling::new(N, N, settings(limit, method)).with_displacements((0..N).collect());
+        let mut coupling = Coupling::new(ports(), settings(limit, method));
         coupling.initialise(&mut train_track, &mut bridge, 0.0).expect("equilibrium");
         let (mut best, mut best_inside, mut sweeps) = (f64::INFINITY, 0.0, 0);
         let mut n = 0;
         for _ in 0..ROUNDS {
-            let inside = |a: &mut FmuSubsystem, b: &mut FmuSubsystem| {
-                (a.instance().tally().time + b.instance().tally().time).as_secs_f64()
-            };
-            let (before, begin) = (inside(&mut train_track, &mut bridge), Instant::now());
+            let inside = |a: &FmuSubsystem, b: &FmuSubsystem| a.seconds() + b.seconds();
+            let (before, begin) = (inside(&train_track, &bridge), Instant::now());
             sweeps = 0;
             for _ in 0..STEPS {
                 let info = coupling.step(&mut train_track, &mut bridge, n as f64 * 1e-3, 1e-3).expect("step");
@@ -50,7 +47,7 @@ fn main() {
             }
             let spent = begin.elapsed().as_secs_f64();
             if spent < best {
-                (best, best_inside) = (spent, inside(&mut train_track, &mut bridge) - before);
+                (best, best_inside) = (spent, inside(&train_track, &bridge) - before);
             }
         }
         let per_sweep = 1e6 / sweeps as f64;
@@ -65,13 +62,18 @@ fn main() {
     }
 }
 
+/// A force and a displacement each.
+fn ports() -> Ports {
+    let (component, scale, known) = (Component::Vertical, 1e-3, Known::Position);
+    Ports::new((1..=N).map(|support| Port { support, component, scale, known }).collect(), 0).expect("ports in order")
+}
+
 fn settings(limit: usize, method: Method) -> Settings {
     Settings {
         method,
         reuse: 2,
         predictor: Predictor::Constant,
         tolerance: 1e-10,
-        force_scale: 1e-3,
         max_iterations: limit,
         hold_forces: false,
         mean_forces: false,

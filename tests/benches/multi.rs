@@ -2,15 +2,13 @@
 //! `cargo bench -p ttb-tests --bench multi [-- EXAMPLE…]`.
 
 use std::cell::Cell;
-use std::ops::ControlFlow;
 use std::time::Instant;
 
 use ttb_contract::{Failure, Subsystem};
-use ttb_coupling::Coupling;
-use ttb_coupling::iteration::IterationError;
-use ttb_coupling::run::{TimeAxis, run};
 use ttb_scenario::step::Steps;
-use ttb_tests::{Pair, example, pair};
+use ttb_session::observe::Iterations;
+use ttb_session::{Coupled, Plan, Sides, TimeAxis, drive};
+use ttb_tests::{example, sides};
 
 /// Simulated time, s.
 const END: f64 = 0.2;
@@ -30,19 +28,14 @@ fn cost(name: &str, steps: Steps) -> [f64; 2] {
     let mut checked = example(name);
     checked.set_steps(steps);
     let spent = [const { Cell::new(0.0) }; 2];
-    let Pair { train_track, bridge, ports, .. } = pair(&checked);
+    let Sides { train_track, bridge, mut coupling } = sides(&checked);
     let mut train_track = Timed { inside: train_track, spent: &spent[0] };
     let mut bridge = Timed { inside: bridge, spent: &spent[1] };
-    let mut coupling = Coupling::new(ports.forces(), ports.motions(), checked.settings());
-    coupling.initialise(&mut train_track, &mut bridge, 0.0).expect("static equilibrium");
-    spent.iter().for_each(|spent| spent.set(0.0));
-    let mut trials = 0;
+    let mut counted = Iterations::default();
     let axis = TimeAxis::new(steps.step, END);
-    let ended = run(&mut coupling, &mut train_track, &mut bridge, axis, |_, _, _, _, info| {
-        trials += info.iterations;
-        Ok::<_, IterationError>(ControlFlow::Continue(()))
-    });
-    assert!(ended.expect("run").is_continue());
+    let plan = Plan { axis, wanted: &|_| false, clock: &|| 0.0 };
+    drive(&mut Coupled::new(&mut train_track, &mut bridge, &mut coupling), &plan, &mut [&mut counted]).expect("run");
+    let trials = counted.total();
     let [train_track, bridge] = spent.map(|spent| spent.get() / END);
     let Steps { step, substeps } = steps;
     println!(

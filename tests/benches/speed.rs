@@ -1,36 +1,31 @@
 //! Speed of whole runs as multiples of real time, on the plain libraries and through the FMUs (results written):
 //! `cargo build --release && cargo bench -p ttb-tests --bench speed [-- EXAMPLE…]`.
 
-use std::ops::ControlFlow;
 use std::process::{Command, Stdio};
 use std::time::Instant;
 
-use ttb_coupling::Coupling;
-use ttb_coupling::iteration::IterationError;
-use ttb_coupling::run::{TimeAxis, run};
-use ttb_tests::{Pair, example, examples, pair, ttb};
+use ttb_session::observe::Iterations;
+use ttb_session::{Case, Plan};
+use ttb_tests::{example, examples, sides, ttb};
 
 fn main() {
     let chosen: Vec<String> = std::env::args().skip(1).filter(|a| a.ends_with(".json")).collect();
     let all = ["r1.json", "default.json"].map(String::from).to_vec();
     for name in if chosen.is_empty() { all } else { chosen } {
         let checked = example(&name);
-        let axis = TimeAxis::new(checked.train_track.step, checked.train_track.end);
+        let axis = Case::of(&checked).axis();
         let mut best = f64::INFINITY;
         let (mut start, mut iterations) = (0.0, 0);
         for _ in 0..3 {
             let begin = Instant::now();
-            let Pair { mut train_track, mut bridge, ports, .. } = pair(&checked);
-            let mut coupling = Coupling::new(ports.forces(), ports.motions(), checked.settings());
-            coupling.initialise(&mut train_track, &mut bridge, 0.0).expect("static equilibrium");
+            let mut sides = sides(&checked);
             start = begin.elapsed().as_secs_f64();
+            let mut counted = Iterations::default();
+            let clock = || begin.elapsed().as_secs_f64();
             let begin = Instant::now();
-            iterations = 0;
-            let ended = run(&mut coupling, &mut train_track, &mut bridge, axis, |_, _, _, _, info| {
-                iterations += info.iterations;
-                Ok::<_, IterationError>(ControlFlow::Continue(()))
-            });
-            assert!(ended.expect("run").is_continue());
+            let plan = Plan { axis, wanted: &|_| false, clock: &clock };
+            sides.run(&plan, &mut [&mut counted]).expect("run");
+            iterations = counted.total();
             best = best.min(begin.elapsed().as_secs_f64());
         }
         let (steps, end) = (axis.steps() as f64, checked.train_track.end);

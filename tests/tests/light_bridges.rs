@@ -1,14 +1,11 @@
 //! Light bridges: R1 on 1 t/m and on 0.5 t/m, its bending stiffness scaled alike, and bridges that cannot roll back.
 
-use std::ops::ControlFlow;
-
-use ttb_contract::{Failure, Subsystem};
-use ttb_coupling::iteration::IterationError;
+use ttb_contract::{Failure, Signal, Subsystem};
 use ttb_coupling::report::Source;
-use ttb_coupling::run::{TimeAxis, run};
-use ttb_coupling::{Coupling, Method, Report, Settings};
+use ttb_coupling::{IterationError, Method, Report, Settings};
 use ttb_scenario::Checked;
-use ttb_tests::{Pair, library_run, pair, r1_with};
+use ttb_session::{Case, RunError, Sides, Table};
+use ttb_tests::{library_run, r1_with, run, sides};
 
 /// A bridge as some FMUs are: without roll-back, without directional derivatives, without interpolation of inputs.
 struct Limited<B> {
@@ -19,6 +16,15 @@ struct Limited<B> {
 }
 
 impl<B: Subsystem> Subsystem for Limited<B> {
+    fn name(&self) -> &str {
+        self.bridge.name()
+    }
+    fn record(&mut self, wanted: &dyn Fn(&Signal) -> bool) -> Vec<Signal> {
+        self.bridge.record(wanted)
+    }
+    fn read(&mut self, row: &mut [f64]) -> Result<(), Failure> {
+        self.bridge.read(row)
+    }
     fn set_inputs(&mut self, values: &[f64], rates: Option<&[f64]>) -> Result<(), Failure> {
         assert!(rates.is_none() || self.interpolates);
         self.bridge.set_inputs(values, rates)
@@ -70,28 +76,22 @@ type Abilities = [bool; 3];
 const ALL: Abilities = [true; 3];
 
 fn settings(checked: &Checked, method: Method) -> Settings {
-    Settings { method, ..checked.settings() }
+    Settings { method, ..Case::of(checked).settings }
 }
 
-fn try_run(checked: &Checked, settings: Settings, abilities: Abilities) -> Result<Ran, IterationError> {
+fn try_run(checked: &Checked, settings: Settings, abilities: Abilities) -> Result<Ran, RunError> {
     let [rolls_back, derives, interpolates] = abilities;
-    let Pair { mut train_track, bridge, coupled, .. } = pair(checked);
+    let Sides { mut train_track, bridge, coupling } = sides(checked);
     let mut bridge = Limited { bridge, rolls_back, derives, interpolates };
-    let mut coupling = Coupling::new(coupled.0, coupled.1, settings);
-    coupling.initialise(&mut train_track, &mut bridge, 0.0)?;
-    let axis = TimeAxis::new(checked.train_track.step, checked.train_track.end);
-    let (mut trials, mut most, mut rescues, mut mid) = (0, 0, 0, vec![0.0]);
-    let mut motion = vec![0.0; coupled.1];
-    let _ = run(&mut coupling, &mut train_track, &mut bridge, axis, |_, bridge, _, _, info| {
-        trials += info.iterations;
-        most = most.max(info.iterations);
-        rescues += info.rescues;
-        bridge.get_outputs(&mut motion)?;
-        mid.push(motion[coupled.0 / 2]);
-        Ok::<_, IterationError>(ControlFlow::Continue(()))
-    })?;
-    let report = coupling.report().clone();
-    Ok(Ran { mean: trials as f64 / axis.steps() as f64, most, rescues, report, mid })
+    let (case, mut table) = (Case { settings, ..Case::of(checked) }, Table::default());
+    let (ended, report) = run(&case, coupling.ports().clone(), [&mut train_track, &mut bridge], &mut [&mut table]);
+    ended?;
+    let mean = table.steps.iter().map(|step| step.iterations).sum::<usize>() as f64 / table.steps.len() as f64;
+    let most = table.steps.iter().map(|step| step.iterations).max().unwrap_or(0);
+    let rescues = table.steps.iter().map(|step| step.rescues).sum();
+    let middle = format!("support[{}].displacement", coupling.ports().forces() / 2 + 1);
+    let mid = table.history(&middle).expect("a support").to_vec();
+    Ok(Ran { mean, most, rescues, report, mid })
 }
 
 fn runs(checked: &Checked, method: Method, abilities: Abilities) -> Ran {
@@ -197,7 +197,7 @@ fn without_roll_back_the_limit_of_the_contraction_leaves_a_margin() {
     for (mass, h) in [(500.0, 1e-3), (500.0, 2e-3), (1000.0, 5e-3)] {
         let checked = r1_with(mass, h);
         let truth = runs(&checked, Method::Auto, ALL);
-        assert!(truth.report.contraction.is_some_and(|rho| rho > ttb_coupling::explicit::STABLE));
+        assert!(truth.report.contraction.is_some_and(|rho| rho > ttb_coupling::report::STABLE));
         let ran = runs(&checked, Method::Auto, [false, false, true]);
         let (off, estimate) = (difference(&truth.mid, &ran.mid), ran.report.explicit.unwrap_or_default());
         println!("{mass} kg/m, {h} s: off {off:.1e}, estimate {estimate:.1e}");
@@ -210,9 +210,9 @@ fn without_roll_back_a_bridge_that_would_blow_up_is_refused() {
     let checked = r1_with(300.0, 5e-3);
     let auto = settings(&checked, Method::Auto);
     let Err(error) = try_run(&checked, auto, [false, true, true]) else { panic!("it ran") };
-    assert!(matches!(error, IterationError::Unstable { t: 0.0, residual: 0.0, .. }), "{error}");
+    assert!(matches!(error, RunError::Iteration(IterationError::Unstable { t: 0.0, residual: 0.0, .. })), "{error}");
     let very_light = r1_with(30.0, 5e-3);
     let Err(error) = try_run(&very_light, auto, [false, false, true]) else { panic!("it ran") };
-    assert!(matches!(error, IterationError::Unstable { rho: None, .. }), "{error}");
+    assert!(matches!(error, RunError::Iteration(IterationError::Unstable { rho: None, .. })), "{error}");
     println!("{error}");
 }

@@ -1,16 +1,14 @@
 //! Train and track in sub-steps of the bridge's step: R1 at 1 ms in ten sub-steps against 0.1 ms everywhere.
 
-use std::ops::ControlFlow;
 use std::process::Command;
 
-use ttb_contract::{Failure, Subsystem};
-use ttb_coupling::iteration::IterationError;
-use ttb_coupling::run::{TimeAxis, run};
-use ttb_coupling::{Coupling, OnFailure, Settings};
+use ttb_contract::{Failure, Signal, Subsystem};
+use ttb_coupling::{OnFailure, Settings};
 use ttb_scenario::Checked;
 use ttb_scenario::step::Steps;
 use ttb_scenario::types::{Method, RailPoint};
-use ttb_tests::{Pair, Table, example, examples, library_run, pair, r1_with, read_results, ttb};
+use ttb_session::{Case, Sides};
+use ttb_tests::{Table, example, examples, library_run, r1_with, read_results, run, sides, ttb};
 
 /// R1 with two monitored points of the rail.
 fn r1(step: f64, substeps: usize) -> Checked {
@@ -86,8 +84,7 @@ struct Oscillator {
 
 impl Oscillator {
     /// m (v² + ω² d²)/2, J.
-    fn energy(&self) -> f64 {
-        let [d, v] = self.motion;
+    fn energy(&self, [d, v]: [f64; 2]) -> f64 {
         0.5 * self.mass * (v * v + self.omega * self.omega * d * d)
     }
 }
@@ -132,24 +129,33 @@ impl Subsystem for Oscillator {
     fn can_interpolate(&self) -> bool {
         false
     }
+    fn record(&mut self, wanted: &dyn Fn(&Signal) -> bool) -> Vec<Signal> {
+        let signals = ["d", "v"].map(|name| Signal { name: name.into(), unit: String::new() });
+        assert!(signals.iter().all(wanted));
+        signals.to_vec()
+    }
+    fn read(&mut self, row: &mut [f64]) -> Result<(), Failure> {
+        row.copy_from_slice(&self.motion);
+        Ok(())
+    }
 }
 
 #[test]
 fn the_work_that_is_counted_is_the_energy_that_a_foreign_bridge_gains() {
     let checked = r1(1e-3, 10);
-    let Pair { mut train_track, coupled, .. } = pair(&checked);
-    let (mass, omega) = (5e5, 30.0);
+    let Sides { mut train_track, coupling, .. } = sides(&checked);
+    let (mass, omega, ports) = (5e5, 30.0, coupling.ports());
     let (motion, saved) = ([0.0; 2], [0.0; 2]);
-    let mut bridge = Oscillator { mass, omega, force: 0.0, supports: coupled.0, motion, saved, stepping: false };
-    let mut coupling = Coupling::new(coupled.0, coupled.1, Settings { tolerance: 1e-12, ..checked.settings() });
-    coupling.initialise(&mut train_track, &mut bridge, 0.0).expect("equilibrium");
-    let (before, mut most) = (bridge.energy(), 0.0_f64);
-    let ended = run(&mut coupling, &mut train_track, &mut bridge, TimeAxis::new(1e-3, 1.0), |_, bridge, _, _, _| {
-        most = most.max(bridge.energy());
-        Ok::<_, IterationError>(ControlFlow::Continue(()))
-    });
-    assert!(ended.expect("run").is_continue());
-    let (gained, work) = (bridge.energy() - before, coupling.report().work);
+    let mut bridge = Oscillator { mass, omega, force: 0.0, supports: ports.forces(), motion, saved, stepping: false };
+    let case = Case::of(&checked);
+    let case = Case { settings: Settings { tolerance: 1e-12, ..case.settings }, end: 1.0, ..case };
+    let mut table = ttb_session::Table::default();
+    let (ended, report) = run(&case, ports.clone(), [&mut train_track, &mut bridge], &mut [&mut table]);
+    ended.expect("run");
+    let [d, v] = ["d", "v"].map(|name| table.history(name).expect("recorded"));
+    let energy: Vec<f64> = d.iter().zip(v).map(|(d, v)| bridge.energy([*d, *v])).collect();
+    let most = energy.iter().copied().fold(0.0, f64::max);
+    let (gained, work) = (energy[energy.len() - 1] - energy[0], report.work);
     println!("gained {gained} J, counted {} J, on the way {most} J; {work:?}", work.received);
     assert!((gained - work.received).abs() < 1e-12 * work.turnover && most > 1.0, "{gained} {work:?}");
     assert!(work.imbalance() < 1e-12, "{work:?}");
@@ -215,15 +221,12 @@ fn newton_halved_steps_and_reduced_bridges_work_with_sub_steps_too() {
     let checked = r1_with(500.0, 5e-3);
     let mut checked = Checked { scenario: checked.scenario.clone(), ..checked };
     checked.set_steps(Steps { step: 5e-3, substeps: 10 });
-    let Pair { mut train_track, mut bridge, coupled, .. } = pair(&checked);
-    let few = Settings { max_iterations: 4, on_failure: OnFailure::Halve, ..checked.settings() };
-    let mut coupling = Coupling::new(coupled.0, coupled.1, few);
-    coupling.initialise(&mut train_track, &mut bridge, 0.0).expect("equilibrium");
-    let mut halvings = 0;
-    let ended = run(&mut coupling, &mut train_track, &mut bridge, TimeAxis::new(5e-3, 0.4), |_, _, _, _, info| {
-        halvings += info.halvings;
-        Ok::<_, IterationError>(ControlFlow::Continue(()))
-    });
-    assert!(ended.expect("run").is_continue() && halvings > 0, "{halvings}");
+    let Sides { mut train_track, mut bridge, coupling } = sides(&checked);
+    let case = Case::of(&checked);
+    let few = Settings { max_iterations: 4, on_failure: OnFailure::Halve, ..case.settings };
+    let (case, mut table) = (Case { settings: few, end: 0.4, ..case }, ttb_session::Table::default());
+    let (ended, _) = run(&case, coupling.ports().clone(), [&mut train_track, &mut bridge], &mut [&mut table]);
+    let halvings: usize = table.steps.iter().map(|step| step.halvings).sum();
+    assert!(ended.is_ok() && halvings > 0, "{halvings}");
     assert!(coupling.report().work.exchange_imbalance() < 1e-12);
 }

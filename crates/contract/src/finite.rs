@@ -15,6 +15,11 @@ pub fn larger(a: f64, b: f64) -> f64 {
     if a.is_nan() || a >= b { a } else { b }
 }
 
+/// The smaller of two numbers; NaN if one of them is NaN.
+pub fn smaller(a: f64, b: f64) -> f64 {
+    if a.is_nan() || a <= b { a } else { b }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

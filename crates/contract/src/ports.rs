@@ -74,6 +74,11 @@ impl Ports {
         self.list.len()
     }
 
+    /// Number of ports with a position: they come first.
+    pub fn positions(&self) -> usize {
+        self.positions
+    }
+
     /// Length of a vector of motions.
     pub fn motions(&self) -> usize {
         self.positions + self.rates + self.others

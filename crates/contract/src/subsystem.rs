@@ -131,56 +131,64 @@ pub trait Subsystem {
     }
 }
 
-impl<S: Subsystem + ?Sized> Subsystem for Box<S> {
-    fn set_inputs(&mut self, values: &[f64], rates: Option<&[f64]>) -> Result<(), Failure> {
-        (**self).set_inputs(values, rates)
-    }
-    fn get_outputs(&mut self, outputs: &mut [f64]) -> Result<(), Failure> {
-        (**self).get_outputs(outputs)
-    }
-    fn output_name(&self, index: usize) -> String {
-        (**self).output_name(index)
-    }
-    fn exit_initialization(&mut self) -> Result<(), Failure> {
-        (**self).exit_initialization()
-    }
-    fn step(&mut self, t: f64, h: f64, may_restore: bool) -> Result<(), Failure> {
-        (**self).step(t, h, may_restore)
-    }
-    fn save(&mut self) -> Result<(), Failure> {
-        (**self).save()
-    }
-    fn restore(&mut self) -> Result<(), Failure> {
-        (**self).restore()
-    }
-    fn work(&mut self) -> Result<Option<f64>, Failure> {
-        (**self).work()
-    }
-    fn can_interpolate(&self) -> bool {
-        (**self).can_interpolate()
-    }
-    fn can_roll_back(&self) -> bool {
-        (**self).can_roll_back()
-    }
-    fn trial_instance(&mut self, inputs: &[f64]) -> Result<Option<Box<dyn Subsystem>>, Failure> {
-        (**self).trial_instance(inputs)
-    }
-    fn can_derive(&self) -> bool {
-        (**self).can_derive()
-    }
-    fn derivative(&mut self, seed: &[f64], change: &mut [f64]) -> Result<(), Failure> {
-        (**self).derivative(seed, change)
-    }
-    fn record(&mut self, wanted: &dyn Fn(&Signal) -> bool) -> Vec<Signal> {
-        (**self).record(wanted)
-    }
-    fn read(&mut self, row: &mut [f64]) -> Result<(), Failure> {
-        (**self).read(row)
-    }
-    fn name(&self) -> &str {
-        (**self).name()
-    }
-    fn seconds(&self) -> f64 {
-        (**self).seconds()
-    }
+/// A pointer to a subsystem is one.
+macro_rules! forward {
+    ($pointer:ty) => {
+        impl<S: Subsystem + ?Sized> Subsystem for $pointer {
+            fn set_inputs(&mut self, values: &[f64], rates: Option<&[f64]>) -> Result<(), Failure> {
+                (**self).set_inputs(values, rates)
+            }
+            fn get_outputs(&mut self, outputs: &mut [f64]) -> Result<(), Failure> {
+                (**self).get_outputs(outputs)
+            }
+            fn output_name(&self, index: usize) -> String {
+                (**self).output_name(index)
+            }
+            fn exit_initialization(&mut self) -> Result<(), Failure> {
+                (**self).exit_initialization()
+            }
+            fn step(&mut self, t: f64, h: f64, may_restore: bool) -> Result<(), Failure> {
+                (**self).step(t, h, may_restore)
+            }
+            fn save(&mut self) -> Result<(), Failure> {
+                (**self).save()
+            }
+            fn restore(&mut self) -> Result<(), Failure> {
+                (**self).restore()
+            }
+            fn work(&mut self) -> Result<Option<f64>, Failure> {
+                (**self).work()
+            }
+            fn can_interpolate(&self) -> bool {
+                (**self).can_interpolate()
+            }
+            fn can_roll_back(&self) -> bool {
+                (**self).can_roll_back()
+            }
+            fn trial_instance(&mut self, inputs: &[f64]) -> Result<Option<Box<dyn Subsystem>>, Failure> {
+                (**self).trial_instance(inputs)
+            }
+            fn can_derive(&self) -> bool {
+                (**self).can_derive()
+            }
+            fn derivative(&mut self, seed: &[f64], change: &mut [f64]) -> Result<(), Failure> {
+                (**self).derivative(seed, change)
+            }
+            fn record(&mut self, wanted: &dyn Fn(&Signal) -> bool) -> Vec<Signal> {
+                (**self).record(wanted)
+            }
+            fn read(&mut self, row: &mut [f64]) -> Result<(), Failure> {
+                (**self).read(row)
+            }
+            fn name(&self) -> &str {
+                (**self).name()
+            }
+            fn seconds(&self) -> f64 {
+                (**self).seconds()
+            }
+        }
+    };
 }
+
+forward!(Box<S>);
+forward!(&mut S);

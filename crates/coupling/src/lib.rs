@@ -1,33 +1,31 @@
 //! The hybrid solution algorithm: force compatibility between two subsystems, iterated at every macro step.
 //!
-//! Start with [`iteration`]; [`ttb_contract::Subsystem`] is all it needs of either side.
-//! Beyond the standard library it uses only pulp, for sums in the instructions of the CPU at hand.
+//! Start with [`scheme`]: the algorithm, one step in one file (`scheme/step.rs`). The rooms below it, each of which knows only
+//! those after it:
+//!
+//! - [`probe`]: what trial steps tell before a step is taken (contraction, a model of the interface, wrong signs and units);
+//! - [`acceleration`]: how the next trial follows from the residual;
+//! - `trial`: what one trial sends and gets, and where it starts from;
+//! - [`adapters`]: bridges that give less than the iteration wants, or several bridges;
+//! - [`settings`], [`report`], [`error`], [`work`], [`algebra`].
+//!
+//! [`ttb_contract::Subsystem`] is all it needs of either side. Beyond that and the standard library it uses only pulp, for
+//! sums in the instructions of the CPU at hand.
 
 pub mod acceleration;
-pub mod adapted;
-pub mod dense;
-mod exchange;
-pub mod explicit;
-mod identify;
-pub mod iteration;
-pub mod joined;
-pub mod newton;
-pub mod predictor;
+pub mod adapters;
+pub mod algebra;
+pub mod error;
 pub mod probe;
-pub mod quasi_newton;
 pub mod report;
-pub mod run;
+pub mod scheme;
 pub mod settings;
-pub mod stations;
-mod strategy;
-mod trials;
-pub mod verdict;
+mod trial;
 pub mod work;
 
-pub use adapted::Adapted;
-pub use iteration::{Coupling, IterationError, Outcome, Settings, StepInfo};
-pub use joined::Joined;
-pub use report::Report;
-pub use settings::{Method, OnFailure};
-pub use stations::{Shape, StationError, Stations};
+pub use adapters::{Adapted, Joined, Lacks, Shape, StationError, Stations};
+pub use error::IterationError;
+pub use report::{Outcome, Report, StepInfo};
+pub use scheme::Coupling;
+pub use settings::{Method, OnFailure, Predictor, Settings};
 pub use work::Work;

@@ -1,7 +1,5 @@
 //! What the user decides about the iteration.
 
-use crate::predictor::Predictor;
-
 /// How the next trial follows from the residual.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Method {
@@ -16,7 +14,7 @@ pub enum Method {
     /// Quasi-Newton, and Newton once the trials show that its model pays.
     #[default]
     Auto,
-    /// No iteration, as for a bridge that cannot roll back: see [`crate::explicit`].
+    /// No iteration, as for a bridge that cannot roll back: see [`crate::scheme::explicit`].
     Explicit,
 }
 
@@ -34,6 +32,31 @@ impl Method {
     }
 }
 
+/// First trial λ⁰ of a step: the polynomial through as many accepted forces.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Predictor {
+    /// λ_n.
+    Constant,
+    /// Through λ_n, λ_{n−1}.
+    Linear,
+    /// Through λ_n … λ_{n−2}.
+    Quadratic,
+    /// Through λ_n … λ_{n−3}.
+    Cubic,
+}
+
+impl Predictor {
+    /// Forces the polynomial goes through.
+    pub(crate) fn points(self) -> usize {
+        match self {
+            Self::Constant => 1,
+            Self::Linear => 2,
+            Self::Quadratic => 3,
+            Self::Cubic => 4,
+        }
+    }
+}
+
 /// What to do with a step that does not converge.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum OnFailure {
@@ -45,7 +68,7 @@ pub enum OnFailure {
     Accept,
 }
 
-/// Settings of the iteration.
+/// Settings of the iteration. The scale of forces, one axle load, is a property of the ports.
 #[derive(Clone, Copy, Debug)]
 pub struct Settings {
     /// Acceleration.
@@ -54,10 +77,8 @@ pub struct Settings {
     pub reuse: usize,
     /// First trial.
     pub predictor: Predictor,
-    /// On |r|, relative to max(|G|, `force_scale`).
+    /// On |r|, relative to max(|G|, one axle load).
     pub tolerance: f64,
-    /// One axle load, N.
-    pub force_scale: f64,
     /// k_max; 1 means one pass, without saving or restoring: bridge first, under the extrapolated forces.
     pub max_iterations: usize,
     /// Send forces as held means even to a bridge that can interpolate.

@@ -16,7 +16,7 @@
 
 use std::ops::AddAssign;
 
-use crate::dense::{each, sum};
+use crate::algebra::sum;
 
 /// Work over a step or a run, J.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -74,34 +74,6 @@ impl Step<'_> {
         let answers = [answered_before, answered, self.moved];
         let (answered, turnover) = (sum(answers, work), sum(answers, |at| work(at).abs()));
         Work { received, residual: answered - received, exchange: self.given.map_or(0.0, |w| w - answered), turnover }
-    }
-}
-
-/// Where in the motion the displacements of the supports stand, in the order of the forces.
-#[derive(Clone, Debug)]
-pub(crate) enum Displacements {
-    /// First of all, in that order.
-    First,
-    /// At these places.
-    At(Vec<usize>),
-}
-
-impl From<Vec<usize>> for Displacements {
-    fn from(places: Vec<usize>) -> Self {
-        let first = places.iter().enumerate().all(|(i, at)| i == *at);
-        if first { Self::First } else { Self::At(places) }
-    }
-}
-
-impl Displacements {
-    /// Δd of every support.
-    pub fn moved(&self, before: &[f64], after: &[f64], moved: &mut [f64]) {
-        match self {
-            Self::First => each(moved, [before, after], |[before, after]| after - before),
-            Self::At(places) => {
-                moved.iter_mut().zip(places).for_each(|(moved, at)| *moved = after[*at] - before[*at]);
-            }
-        }
     }
 }
 

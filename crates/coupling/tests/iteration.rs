@@ -1,10 +1,9 @@
 //! The iteration on two scalar subsystems with known answers.
 
+use ttb_contract::{Component, Known, Port, Ports};
 use ttb_contract::{Failure, Subsystem};
-use ttb_coupling::iteration::{IterationError, OnFailure, Outcome, Settings};
-use ttb_coupling::predictor::Predictor;
 use ttb_coupling::report::Side;
-use ttb_coupling::{Coupling, Method};
+use ttb_coupling::{Coupling, IterationError, Method, OnFailure, Outcome, Predictor, Settings};
 
 /// Answers `constant(t) + gain · (input at the end of the step)`; counts what it was asked.
 struct Line {
@@ -63,13 +62,19 @@ impl Subsystem for Line {
     }
 }
 
+/// A force, 1 N at least, and a position.
+fn one() -> Ports {
+    let known = Known::Position;
+    let port = Port { support: 1, component: Component::Vertical, scale: 1.0, known };
+    Ports::new(vec![port], 0).expect("a port")
+}
+
 fn settings() -> Settings {
     Settings {
         method: Method::Aitken,
         reuse: 2,
         predictor: Predictor::Linear,
         tolerance: 1e-12,
-        force_scale: 1.0,
         max_iterations: 30,
         hold_forces: false,
         mean_forces: false,
@@ -85,7 +90,7 @@ fn pair(rho: f64) -> (Line, Line) {
 #[test]
 fn every_step_ends_on_the_known_force() {
     let (mut train_track, mut bridge) = pair(0.4);
-    let mut coupling = Coupling::new(1, 1, settings());
+    let mut coupling = Coupling::new(one(), settings());
     coupling.initialise(&mut train_track, &mut bridge, 0.0).unwrap();
     assert!((coupling.forces()[0] - 100.0 / 1.4).abs() < 1e-9);
     for n in 0..20 {
@@ -105,7 +110,7 @@ fn every_step_ends_on_the_known_force() {
 fn a_subsystem_that_cannot_interpolate_gets_the_mean() {
     let (mut train_track, mut bridge) = pair(0.0);
     bridge.interpolates = false;
-    let mut coupling = Coupling::new(1, 1, settings());
+    let mut coupling = Coupling::new(one(), settings());
     coupling.initialise(&mut train_track, &mut bridge, 0.0).unwrap();
     coupling.step(&mut train_track, &mut bridge, 0.0, 1.0).unwrap();
     assert_eq!((bridge.input, bridge.rate), (150.0, 0.0));
@@ -117,8 +122,7 @@ fn a_step_that_does_not_converge_follows_the_policy() {
     let run = |on_failure: OnFailure| {
         let (mut train_track, mut bridge) = pair(0.4);
         let mut coupling = Coupling::new(
-            1,
-            1,
+            one(),
             Settings { method: Method::FixedPoint, tolerance: 1e-6, max_iterations: 2, on_failure, ..settings() },
         );
         coupling.initialise(&mut train_track, &mut bridge, 0.0).unwrap();
@@ -141,7 +145,7 @@ fn a_step_that_does_not_converge_follows_the_policy() {
 fn one_pass_neither_saves_nor_restores_and_carries_the_answer_on() {
     let (mut train_track, mut bridge) = pair(0.01);
     let one_pass = Settings { max_iterations: 1, on_failure: OnFailure::Accept, ..settings() };
-    let mut coupling = Coupling::new(1, 1, one_pass);
+    let mut coupling = Coupling::new(one(), one_pass);
     coupling.initialise(&mut train_track, &mut bridge, 0.0).unwrap();
     for n in 0..100 {
         coupling.step(&mut train_track, &mut bridge, f64::from(n) * 0.01, 0.01).unwrap();
@@ -149,7 +153,7 @@ fn one_pass_neither_saves_nor_restores_and_carries_the_answer_on() {
     assert_eq!((train_track.roll_backs, bridge.roll_backs), (0, 0));
     let exact = 200.0 / 1.01;
     assert!((coupling.forces()[0] / exact - 1.0).abs() < 1e-3, "{} {exact}", coupling.forces()[0]);
-    let mut stopping = Coupling::new(1, 1, Settings { on_failure: OnFailure::Stop, ..one_pass });
+    let mut stopping = Coupling::new(one(), Settings { on_failure: OnFailure::Stop, ..one_pass });
     let (mut train_track, mut bridge) = pair(0.01);
     stopping.initialise(&mut train_track, &mut bridge, 0.0).unwrap();
     let stopped = stopping.step(&mut train_track, &mut bridge, 0.0, 0.01);
@@ -160,7 +164,7 @@ fn one_pass_neither_saves_nor_restores_and_carries_the_answer_on() {
 fn a_force_that_is_no_number_stops_the_run_at_its_step() {
     let (mut train_track, mut bridge) =
         (Line::new(0.0, |t| if t > 0.5 { f64::NAN } else { 1.0 }), Line::new(1.0, |_| 0.0));
-    let mut coupling = Coupling::new(1, 1, settings());
+    let mut coupling = Coupling::new(one(), settings());
     coupling.initialise(&mut train_track, &mut bridge, 0.0).unwrap();
     coupling.step(&mut train_track, &mut bridge, 0.0, 0.5).unwrap();
     let stopped = coupling.step(&mut train_track, &mut bridge, 0.5, 0.5);

@@ -2,10 +2,9 @@
 
 mod many;
 
-use many::{N, pair, settings};
-use ttb_coupling::iteration::{IterationError, OnFailure, Outcome};
+use many::{N, pair, ports, settings};
 use ttb_coupling::report::{Side, Source};
-use ttb_coupling::{Coupling, Method, Settings};
+use ttb_coupling::{Coupling, IterationError, Method, OnFailure, Outcome, Settings};
 
 const H: f64 = 0.01;
 
@@ -13,7 +12,7 @@ const H: f64 = 0.01;
 fn trials(method: Method, rho: f64, curvature: f64, derives: bool) -> (Vec<usize>, Coupling) {
     let (mut train_track, mut bridge) = pair(rho, curvature);
     bridge.derives = derives;
-    let mut coupling = Coupling::new(N, 2 * N, settings(method));
+    let mut coupling = Coupling::new(ports(), settings(method));
     coupling.initialise(&mut train_track, &mut bridge, 0.0).expect("equilibrium");
     let mut found = Vec::new();
     for n in 0..40 {
@@ -52,8 +51,8 @@ fn newton_steps_a_linear_bridge_twice_also_where_the_track_is_not_linear() {
 #[test]
 fn derivatives_that_are_not_those_of_the_steps_are_found_out() {
     let (mut train_track, mut bridge) = pair(2.0, 0.0);
-    (bridge.derives, bridge.lie) = (true, 2.0);
-    let mut coupling = Coupling::new(N, 2 * N, settings(Method::Newton));
+    (bridge.derives, bridge.excess) = (true, 2.0);
+    let mut coupling = Coupling::new(ports(), settings(Method::Newton));
     coupling.initialise(&mut train_track, &mut bridge, 0.0).expect("equilibrium");
     let info = coupling.step(&mut train_track, &mut bridge, 0.0, H).expect("a step");
     assert_eq!((info.iterations, coupling.report().model), (2, Some(Source::Trials)));
@@ -76,7 +75,7 @@ fn auto_leaves_a_weak_coupling_to_quasi_newton_and_takes_newton_where_it_pays() 
 #[test]
 fn a_step_of_another_size_does_without_the_model() {
     let (mut train_track, mut bridge) = pair(2.0, 0.0);
-    let mut coupling = Coupling::new(N, 2 * N, settings(Method::Newton));
+    let mut coupling = Coupling::new(ports(), settings(Method::Newton));
     coupling.initialise(&mut train_track, &mut bridge, 0.0).expect("equilibrium");
     let first = coupling.step(&mut train_track, &mut bridge, 0.0, H).expect("a step");
     let shorter = coupling.step(&mut train_track, &mut bridge, H, 0.3 * H).expect("a step");
@@ -87,7 +86,7 @@ fn a_step_of_another_size_does_without_the_model() {
 fn aitken_that_gets_nowhere_is_rescued_by_quasi_newton() {
     let (mut train_track, mut bridge) = pair(5.0, 0.0);
     let few = Settings { max_iterations: 20, on_failure: OnFailure::Stop, ..settings(Method::Aitken) };
-    let mut coupling = Coupling::new(N, 2 * N, few);
+    let mut coupling = Coupling::new(ports(), few);
     train_track.at_rest = true;
     coupling.initialise(&mut train_track, &mut bridge, 0.0).expect("equilibrium");
     train_track.at_rest = false;
@@ -100,7 +99,7 @@ fn aitken_that_gets_nowhere_is_rescued_by_quasi_newton() {
 fn a_fixed_point_that_diverges_stops_with_its_contraction_and_a_way_out() {
     let (mut train_track, mut bridge) = pair(3.0, 0.0);
     train_track.at_rest = true;
-    let mut coupling = Coupling::new(N, 2 * N, settings(Method::FixedPoint));
+    let mut coupling = Coupling::new(ports(), settings(Method::FixedPoint));
     coupling.initialise(&mut train_track, &mut bridge, 0.0).expect("equilibrium");
     train_track.at_rest = false;
     let Err(error) = coupling.step(&mut train_track, &mut bridge, 0.0, H) else { panic!("it converged") };
@@ -114,7 +113,7 @@ fn a_fixed_point_that_diverges_stops_with_its_contraction_and_a_way_out() {
 fn infinity_is_caught_at_its_step_with_subsystem_and_output() {
     let (mut train_track, mut bridge) = pair(0.1, 0.0);
     bridge.infinite_from = 0.045;
-    let mut coupling = Coupling::new(N, 2 * N, settings(Method::Auto));
+    let mut coupling = Coupling::new(ports(), settings(Method::Auto));
     coupling.initialise(&mut train_track, &mut bridge, 0.0).expect("equilibrium");
     for n in 0..4 {
         coupling.step(&mut train_track, &mut bridge, f64::from(n) * H, H).expect("a step");
@@ -128,7 +127,7 @@ fn infinity_is_caught_at_its_step_with_subsystem_and_output() {
 #[test]
 fn forces_that_no_subsystem_can_bear_on_the_way_do_not_end_the_run_but_a_step_that_cannot_be_done_does() {
     let (mut train_track, mut bridge) = pair(5.0, 0.0);
-    let mut coupling = Coupling::new(N, 2 * N, settings(Method::Aitken));
+    let mut coupling = Coupling::new(ports(), settings(Method::Aitken));
     train_track.at_rest = true;
     coupling.initialise(&mut train_track, &mut bridge, 0.0).expect("equilibrium");
     train_track.at_rest = false;

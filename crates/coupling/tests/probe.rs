@@ -1,13 +1,10 @@
 //! Trial steps before the run, and audits in its course, on free masses with known answers.
 
-use ttb_contract::{Failure, Subsystem};
-use ttb_coupling::iteration::{IterationError, OnFailure};
-use ttb_coupling::predictor::Predictor;
-use ttb_coupling::probe::is_lie;
+use ttb_contract::{Failure, Ports, Subsystem};
+use ttb_coupling::probe::response::Mismatch;
+use ttb_coupling::probe::returns;
 use ttb_coupling::report::Side;
-use ttb_coupling::run::{TimeAxis, run};
-use ttb_coupling::verdict::Verdict;
-use ttb_coupling::{Coupling, Method, Settings, StepInfo};
+use ttb_coupling::{Coupling, IterationError, Method, OnFailure, Predictor, Settings};
 
 const N: usize = 4;
 const MASS: f64 = 6e3;
@@ -111,30 +108,25 @@ impl Subsystem for Masses {
 }
 
 fn coupling() -> Coupling {
-    let (method, predictor, on_failure) = (Method::Auto, Predictor::Linear, OnFailure::Stop);
-    let (tolerance, force_scale, max_iterations) = (1e-9, 1e5, 30);
-    let hold_forces = false;
-    Coupling::new(
-        N,
-        2 * N,
-        Settings {
-            method,
-            reuse: 2,
-            predictor,
-            tolerance,
-            force_scale,
-            max_iterations,
-            hold_forces,
-            mean_forces: false,
-            on_failure,
-        },
-    )
+    let settings = Settings {
+        method: Method::Auto,
+        reuse: 2,
+        predictor: Predictor::Linear,
+        tolerance: 1e-9,
+        max_iterations: 30,
+        hold_forces: false,
+        mean_forces: false,
+        on_failure: OnFailure::Stop,
+    };
+    Coupling::new(Ports::vertical(N, 1e5), settings)
 }
 
 /// All of them on one deck.
 const ONE: &[std::ops::Range<usize>] = std::slice::from_ref(&(0..N));
 
-const AXIS: fn() -> TimeAxis = || TimeAxis::new(1e-3, 0.1);
+/// Begin and size of the first step, s, and steps to be tried.
+const FIRST: [f64; 2] = [0.0, 1e-3];
+const STEPS: usize = 100;
 
 #[test]
 fn the_mass_is_found_with_and_without_roll_back_and_nothing_is_moved() {
@@ -143,12 +135,12 @@ fn the_mass_is_found_with_and_without_roll_back_and_nothing_is_moved() {
         bridge.rolls_back = rolls_back;
         coupling.initialise(&mut train_track, &mut bridge, 0.0).expect("equilibrium");
         let before = (bridge.d.clone(), bridge.v.clone());
-        let probe = coupling.probe(&mut train_track, &mut bridge, &[0..2, 2..4], AXIS()).expect("a probe");
+        let probe = coupling.probe(&mut train_track, &mut bridge, &[0..2, 2..4], FIRST, STEPS).expect("a probe");
         assert_eq!((probe.train_track, probe.bridge), (Some(0.0), if rolls_back { vec![0.0; 2] } else { Vec::new() }));
         assert_eq!(probe.responses.len(), 2);
         for response in &probe.responses {
             assert!(response.mass.iter().all(|m| (m / MASS - 1.0).abs() < 1e-9), "{response:?}");
-            assert_eq!(response.verdict(), None);
+            assert_eq!(response.mismatch(), None);
         }
         assert_eq!(before, (bridge.d, bridge.v));
     }
@@ -159,15 +151,15 @@ fn every_deck_is_judged_by_itself() {
     let (mut train_track, mut bridge, mut coupling) = (masses(false), masses(true), coupling());
     bridge.factors = [-1.0, 1.0];
     coupling.initialise(&mut train_track, &mut bridge, 0.0).expect("equilibrium");
-    let probe = coupling.probe(&mut train_track, &mut bridge, &[0..2, 2..4], AXIS()).expect("a probe");
-    assert!(probe.responses.iter().all(|response| response.verdict() == Some(Verdict::Alone(0, -1.0))));
+    let probe = coupling.probe(&mut train_track, &mut bridge, &[0..2, 2..4], FIRST, STEPS).expect("a probe");
+    assert!(probe.responses.iter().all(|response| response.mismatch() == Some(Mismatch::Alone(0, -1.0))));
 }
 
 #[test]
 fn a_run_of_a_single_step_is_probed_by_a_single_step() {
     let (mut train_track, mut bridge, mut coupling) = (masses(false), masses(true), coupling());
     coupling.initialise(&mut train_track, &mut bridge, 0.0).expect("equilibrium");
-    let probe = coupling.probe(&mut train_track, &mut bridge, ONE, TimeAxis::new(1.0, 1e-3)).expect("a probe");
+    let probe = coupling.probe(&mut train_track, &mut bridge, ONE, FIRST, 1).expect("a probe");
     assert!((probe.responses[0].mass[0] / MASS - 1.0).abs() < 1e-9);
 }
 
@@ -177,15 +169,15 @@ fn a_state_that_is_not_restored_is_found_before_the_run_or_in_its_course() {
         let (mut train_track, mut bridge, mut coupling) = (masses(false), masses(true), coupling());
         bridge.forgets_from = forgets_from;
         coupling.initialise(&mut train_track, &mut bridge, 0.0).expect("equilibrium");
-        let probe = coupling.probe(&mut train_track, &mut bridge, ONE, AXIS()).expect("a probe");
-        let nothing = |_: &mut Masses, _: &mut Masses, _, _, _: &StepInfo| Ok(std::ops::ControlFlow::Continue(()));
-        (probe, run::<_, _, IterationError>(&mut coupling, &mut train_track, &mut bridge, AXIS(), nothing))
+        let probe = coupling.probe(&mut train_track, &mut bridge, ONE, FIRST, STEPS).expect("a probe");
+        let mut step = |n: usize| coupling.step(&mut train_track, &mut bridge, n as f64 * FIRST[1], FIRST[1]);
+        (probe, (0..STEPS).try_for_each(|n| step(n).map(|_| ())))
     };
     let (probe, ended) = go(f64::INFINITY);
-    assert!(!is_lie(probe.bridge[0]) && ended.is_ok());
-    assert!(is_lie(go(0.0).0.bridge[0]));
+    assert!(returns(probe.bridge[0]) && ended.is_ok());
+    assert!(!returns(go(0.0).0.bridge[0]));
     let (probe, ended) = go(0.02);
-    assert!(!is_lie(probe.bridge[0]));
+    assert!(returns(probe.bridge[0]));
     let Err(IterationError::NoReturn { t, side, .. }) = ended else { panic!("{ended:?}") };
     assert_eq!((t, side), (0.02, Side::Bridge));
 }

@@ -4,10 +4,8 @@ mod counting;
 
 use counting::allocations;
 use std::time::Instant;
-use ttb_contract::{Failure, Subsystem};
-use ttb_coupling::iteration::{OnFailure, Settings};
-use ttb_coupling::predictor::Predictor;
-use ttb_coupling::{Adapted, Coupling, Joined, Method, Shape, Stations};
+use ttb_contract::{Failure, Ports, Subsystem};
+use ttb_coupling::{Adapted, Coupling, Joined, Lacks, Method, OnFailure, Predictor, Settings, Shape, Stations};
 
 /// Answers `constant + gain · (input at the end of the step)`, each output to the input of its number.
 struct Line {
@@ -73,7 +71,6 @@ fn settings(method: Method) -> Settings {
         reuse: 2,
         predictor: Predictor::Linear,
         tolerance: 1e-6,
-        force_scale: 100.0,
         max_iterations: 30,
         hold_forces: false,
         mean_forces: false,
@@ -84,7 +81,7 @@ fn settings(method: Method) -> Settings {
 /// 200 steps after the first ten, which measure ρ, identify, and make room for what is remembered: no allocation.
 fn run(method: Method, n: usize, bridge: &mut dyn Subsystem, what: &str) {
     let mut train_track = Line::new(2 * n, -1.0, 100.0);
-    let mut coupling = Coupling::new(n, 2 * n, settings(method));
+    let mut coupling = Coupling::new(Ports::vertical(n, 100.0), settings(method));
     coupling.initialise(&mut train_track, bridge, 0.0).expect("equilibrium");
     let mut trials = 0;
     let mut run = |from: u32, steps: u32| {
@@ -128,9 +125,15 @@ fn no_method_and_no_adapter_allocates_in_a_step() {
             let mut line = Line::new(400, 0.01, 0.0);
             line.rolls_back = rolls_back;
             // These masses have no velocity to speak of: steps that are not iterated would follow its noise.
-            (Adapted::new(line, 400, Some(stations), !rolls_back, 1e-3), 500)
+            let lacks = Lacks { points: 400, components: 1, stations: Some(stations), velocities: rolls_back };
+            (Adapted::new(line, lacks, 1e-3), Ports::vertical(500, 100.0))
         };
         let method = if rolls_back { Method::IqnIls } else { Method::Explicit };
-        run(method, 1000, &mut Joined::new(vec![part(), part()]), "two bridges of 400 stations without velocities");
+        run(
+            method,
+            1000,
+            &mut Joined::new(vec![part(), part()]).expect("complete ports"),
+            "two bridges of 400 stations without velocities",
+        );
     }
 }

@@ -19,12 +19,14 @@ pub mod lcm;
 pub mod monolithic;
 pub mod schur;
 pub mod scm;
+pub mod stepped;
 pub mod stepper;
 pub mod sweeps;
 pub mod wheels;
 pub mod whole;
 
 pub use monolithic::{History, run};
+pub use stepped::Stepped;
 pub use stepper::{Method, StepReport, Stepper};
 pub use whole::Whole;
 

@@ -53,18 +53,6 @@ impl Checked {
         (self.train_track.step, self.train_track.substeps, self.bridge.step) = (steps.step, steps.substeps, steps.step);
         self.hash = hash(&self.train_track, &self.bridge, &self.scenario.coupling);
     }
-
-    /// The train–track output that an input `support[…].force` of the bridge gets: of several sub-steps the mean force.
-    #[must_use]
-    pub fn sent_force(&self, input: &str) -> String {
-        if self.steps().substeps > 1 { input.replace(".force", ".mean_force") } else { input.into() }
-    }
-
-    /// The iteration's settings.
-    #[must_use]
-    pub fn settings(&self) -> ttb_coupling::Settings {
-        self.scenario.coupling.settings(self.axle_load, self.train_track.substeps)
-    }
 }
 
 /// Reads and checks a scenario file.

@@ -2,16 +2,13 @@
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
-use std::ops::ControlFlow;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::AtomicBool;
 
-use ttb_bridge::Bridge;
-use ttb_contract::{InProcess, Interface, Model, ModelError, Pair};
-use ttb_coupling::Coupling;
-use ttb_coupling::run::{TimeAxis, run as run_steps};
+use ttb_contract::finite::{larger, largest};
 use ttb_scenario::Checked;
 use ttb_scenario::step::Steps;
-use ttb_train_track::TrainTrack;
+use ttb_session::observe::Progress;
+use ttb_session::{Case, Column, Ended, Plan, Table};
 
 use super::progress::progress_bar;
 use super::signals::stop_on_interrupt;
@@ -20,7 +17,7 @@ use crate::error::Error;
 use crate::files::write;
 use crate::pictures::slopes::{Kind, Slopes};
 use crate::prepare::auto::decided;
-use crate::results::names::{is_quantity, kind};
+use crate::prepare::fmus;
 
 /// The command.
 pub fn accuracy(arguments: &Accuracy) -> Result<(), Error> {
@@ -58,65 +55,36 @@ pub fn accuracy(arguments: &Accuracy) -> Result<(), Error> {
     Ok(())
 }
 
-/// Histories by name.
-type Histories = Vec<(String, Vec<f64>)>;
-
 /// Runs the scenario at a step; all outputs but those of the supports and the wheels' positions.
-fn histories(checked: &Checked, h: f64, quiet: bool, stop: &AtomicBool) -> Result<Histories, Error> {
+fn histories(checked: &Checked, h: f64, quiet: bool, stop: &AtomicBool) -> Result<Table, Error> {
     let mut checked = checked.clone();
     checked.set_steps(Steps { step: h, substeps: checked.steps().substeps });
-    let refused = |e: ModelError| Error::Input(e.to_string());
-    let train_track = TrainTrack::new(checked.train_track.clone()).map_err(refused)?;
-    let bridge = Bridge::new(checked.bridge.clone()).map_err(refused)?;
-    let wanted = |interface: &Interface| -> Vec<(String, u32)> {
-        let names = interface.outputs().map(|r| (interface.variables()[r].name.clone(), r as u32));
-        names.filter(|(name, _)| is_quantity(name)).collect()
-    };
-    let (of_train, of_bridge) = (wanted(train_track.interface()), wanted(bridge.interface()));
-    let references = [&of_train, &of_bridge].map(|list| list.iter().map(|(_, r)| *r).collect::<Vec<u32>>());
-    let names = of_train.into_iter().chain(of_bridge).map(|(name, _)| (name, Vec::new()));
-    let mut table: Histories = names.collect();
-    let Pair { mut train_track, mut bridge, ports } =
-        Pair::new(train_track, bridge, checked.settings().force_scale, |force| checked.sent_force(force))
-            .map_err(refused)?;
-    let mut coupling = Coupling::new(ports.forces(), ports.motions(), checked.settings());
-    coupling.initialise(&mut train_track, &mut bridge, 0.0)?;
-    let mut row = vec![0.0; table.len()];
-    let mut read = |t: &mut InProcess<TrainTrack>, b: &mut InProcess<Bridge>| {
-        let (first, second) = row.split_at_mut(references[0].len());
-        let failed = |e: ModelError| Error::Fmu(e.to_string());
-        t.instance().get(&references[0], first).map_err(failed)?;
-        b.instance().get(&references[1], second).map_err(failed)?;
-        table.iter_mut().zip(&row).for_each(|((_, history), x)| history.push(*x));
-        Ok::<_, Error>(())
-    };
-    read(&mut train_track, &mut bridge)?;
-    let axis = TimeAxis::new(h, checked.train_track.end);
-    let bar = progress_bar(axis.steps(), quiet).with_prefix(format!("{:.4} ms ", 1e3 * h));
-    let ended = run_steps(&mut coupling, &mut train_track, &mut bridge, axis, |t, b, n, _, _| {
-        read(t, b)?;
-        bar.set_position(n);
-        Ok::<_, Error>(if stop.load(Ordering::Relaxed) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) })
-    })?;
+    let case = Case::of(&checked);
+    let mut sides = fmus::sides(&checked)?;
+    let bar = progress_bar(case.axis().steps(), quiet).with_prefix(format!("{:.4} ms ", 1e3 * h));
+    let mut tell = |n| bar.set_position(n);
+    let (mut table, mut progress) = (Table::default(), Progress::new(&mut tell, stop));
+    let plan = Plan { axis: case.axis(), wanted: &Column::has_extremes, clock: &|| 0.0 };
+    let ended = sides.run(&plan, &mut [&mut table, &mut progress])?;
     bar.finish_and_clear();
-    if ended.is_break() { Err(Error::Interrupted) } else { Ok(table) }
+    if ended == Ended::Stopped { Err(Error::Interrupted) } else { Ok(table) }
 }
 
 /// Errors of every kind; the fine run has `parts` steps in one of the coarse run.
-fn compare(truth: &Histories, coarse: &Histories, parts: usize) -> Vec<(String, [f64; 2])> {
+fn compare(truth: &Table, coarse: &Table, parts: usize) -> Vec<(String, [f64; 2])> {
     // Per kind: greatest value, greatest difference, greatest difference of peaks.
     let mut kinds: BTreeMap<String, [f64; 3]> = BTreeMap::new();
-    for ((name, fine), (_, coarse)) in truth.iter().zip(coarse) {
-        let kind = kinds.entry(kind(name).replace("[]", "[·]")).or_default();
-        let peak = |values: &[f64]| values.iter().fold(0.0_f64, |peak, x| peak.max(x.abs()));
-        kind[0] = kind[0].max(peak(fine));
+    for ((column, fine), coarse) in truth.columns.iter().zip(&truth.values).zip(&coarse.values) {
+        let kind = kinds.entry(column.series().replace("[]", "[·]")).or_default();
+        let peak = |values: &[f64]| largest(values.iter().map(|x| x.abs()));
+        kind[0] = larger(kind[0], peak(fine));
         // A last step that was shortened is no multiple of the fine ones.
         let pairs = coarse.iter().zip(fine.iter().step_by(parts)).take((fine.len() - 1) / parts + 1);
-        kind[1] = pairs.fold(kind[1], |most, (a, b)| most.max((a - b).abs()));
-        kind[2] = kind[2].max((peak(coarse) - peak(fine)).abs());
+        kind[1] = pairs.fold(kind[1], |most, (a, b)| larger(most, (a - b).abs()));
+        kind[2] = larger(kind[2], (peak(coarse) - peak(fine)).abs());
     }
     let relative = |[scale, history, peak]: [f64; 3]| [history / scale, peak / scale];
-    kinds.into_iter().filter(|(_, k)| k[0] > 0.0).map(|(name, k)| (name, relative(k))).collect()
+    kinds.into_iter().filter(|(_, k)| k[0] != 0.0).map(|(name, k)| (name, relative(k))).collect()
 }
 
 /// History and peak error in percent, a column a step.

@@ -1,18 +1,20 @@
 //! `ttb run`: build, connect, initialise, step, record, sum up.
 
-use std::ops::ControlFlow;
+use std::fs::File;
+use std::io::BufWriter;
 use std::path::Path;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::AtomicBool;
 use std::time::Instant;
 
-use indicatif::ProgressBar;
-use ttb_coupling::run::{TimeAxis, run as run_steps};
-use ttb_fmi::FmuSubsystem;
+use ttb_contract::Subsystem;
+use ttb_coupling::probe::Probe;
+use ttb_session::observe::{Iterations, IterationsCsv, Peaks, Progress, ResultsCsv, Timed};
+use ttb_session::{Coupled, Ended, Plan, drive};
 
 use super::progress::progress_bar;
 use super::signals::stop_on_interrupt;
 use crate::cli::Run;
-use crate::connect::connected::{BridgeSide, Connected, Given, connect};
+use crate::connect::connected::{Connected, Given, connect};
 use crate::connect::isolate::Isolated;
 use crate::connect::map::Map;
 use crate::connect::preload;
@@ -22,13 +24,8 @@ use crate::pictures::plot::Plot;
 use crate::prepare::{auto, fmus};
 use crate::results::coupled::CouplingReport;
 use crate::results::job::Job;
-use crate::results::peaks::Peaks;
-use crate::results::record::Recorder;
-use crate::results::summary::{Iterations, Seconds, Summary};
+use crate::results::summary::{Seconds, Summary};
 use crate::system::Opened;
-
-/// Steps between two looks at the progress bar.
-const PROGRESS: u64 = 50;
 
 /// The command.
 pub fn run(arguments: &Run) -> Result<(), Error> {
@@ -87,7 +84,7 @@ fn run_trusting(
 ) -> Result<(), Error> {
     let mut first = open(true)?;
     match run(&mut first) {
-        Err(Error::Lies(text)) => {
+        Err(Error::NoReturn(text)) => {
             // Not unloaded before the others, if it may stay: NumPy, for one, cannot be loaded twice.
             let _stays = first.several.then_some(first);
             let mut second = open(false)?;
@@ -128,121 +125,88 @@ fn run_connected(
     stop: &AtomicBool,
     begin: Instant,
 ) -> Result<(), Error> {
-    let folder = &arguments.output;
-    let (axis, output) = (TimeAxis::new(job.step, job.end), job.output);
-    let Connected { train_track, bridge, .. } = &mut *connected;
-    let recorder = Recorder::new(folder, train_track, bridge, output.supports, output.every, axis.steps())?;
-    let mut log = Log {
-        peaks: Peaks::new(&recorder),
-        plot: Plot::new(&recorder, &job.scene, job.end),
-        recorder,
-        iterations: Iterations::default(),
-        recording: 0.0,
-        reached: 0.0,
-        mark: Instant::now(),
-        bar: progress_bar(axis.steps(), arguments.quiet),
+    let (folder, axis) = (&arguments.output, job.case.axis());
+    let [results, iterations] = ["results.csv", "iterations.csv"].map(|name| folder.join(name));
+    let mut results = ResultsCsv::new(create(&results)?, &results.display().to_string(), job.case.every);
+    let mut iterations = IterationsCsv::new(create(&iterations)?, &iterations.display().to_string());
+    let mut log = Log::new(job);
+    let bar = progress_bar(axis.steps(), arguments.quiet);
+    let mut tell = |n| bar.set_position(n);
+    let mut progress = Progress::new(&mut tell, stop);
+    let clock = || begin.elapsed().as_secs_f64();
+    let plan = Plan { axis, wanted: &|column| job.case.keeps(column), clock: &clock };
+    let Connected { train_track, bridge, coupling, parts, probe, .. } = &mut *connected;
+    let (name, groups) = (train_track.name().to_string(), bridge.ranges());
+    let mut look = |found: &Probe| {
+        probe.clone_from(found);
+        judge(found, &name, parts)
     };
-    let mut seconds = Seconds::default();
-    let begun = initialise(connected, axis, &mut log, !arguments.no_probe);
-    let outcome = begun.and_then(|()| simulate(connected, axis, &mut log, stop, begin, &mut seconds));
-    log.bar.finish_and_clear();
-    if matches!(outcome, Err(Error::Lies(_))) {
+    let mut coupled = Coupled::new(train_track, bridge, coupling);
+    if !arguments.no_probe {
+        coupled = coupled.probed(groups, &mut look);
+    }
+    let ended = drive(
+        &mut coupled,
+        &plan,
+        &mut [
+            &mut log.counted,
+            &mut iterations,
+            &mut results,
+            &mut log.peaks,
+            &mut log.plot,
+            &mut log.timed,
+            &mut progress,
+        ],
+    );
+    log.ended = clock();
+    log.reached = progress.reached;
+    bar.finish_and_clear();
+    let outcome = match ended {
+        Ok(Ended::Complete) => Ok(()),
+        Ok(Ended::Stopped) => Err(Error::Interrupted),
+        Err(error) => Err(error.into()),
+    };
+    if matches!(outcome, Err(Error::NoReturn(_))) {
         return outcome;
     }
-    let outcome = outcome.and(log.recorder.flush());
-    if let Some(choice) = &job.choice {
-        log.peaks.estimate(choice);
-    }
-    finish(job, &log, outcome, seconds, connected, folder, arguments.quiet)
+    finish(job, &log, outcome, connected, folder, arguments.quiet)
 }
 
-/// Results of a run as they come.
+fn create(path: &Path) -> Result<BufWriter<File>, Error> {
+    File::create(path).map(BufWriter::new).map_err(Error::io(path))
+}
+
+/// What was seen of a run.
 struct Log {
-    recorder: Recorder,
+    counted: Iterations,
     peaks: Peaks,
     plot: Plot,
-    iterations: Iterations,
-    recording: f64,
+    timed: Timed,
     reached: f64,
-    mark: Instant,
-    bar: ProgressBar,
+    /// Seconds from the begin of the command to the end of the run.
+    ended: f64,
 }
 
 impl Log {
-    /// After step `n` (0: initialization), which ended at `t` and took `h`.
-    fn step(
-        &mut self,
-        train_track: &mut FmuSubsystem,
-        bridge: &mut BridgeSide,
-        n: u64,
-        t: f64,
-        h: f64,
-    ) -> Result<(), Error> {
-        self.recorder.record(train_track, bridge, n, t)?;
-        self.peaks.update(&self.recorder.row, t, h);
-        self.plot.update(&self.recorder.row, t);
-        self.reached = t;
-        if n.is_multiple_of(PROGRESS) {
-            self.bar.set_position(n);
+    fn new(job: &Job) -> Self {
+        let (counted, peaks, timed) = (Iterations::default(), Peaks::default(), Timed::default());
+        Self { counted, peaks, plot: Plot::new(job.scene.clone()), timed, reached: 0.0, ended: 0.0 }
+    }
+
+    fn seconds(&self) -> Seconds {
+        let begun = self.timed.begun.unwrap_or(self.ended);
+        let steps = self.timed.steps;
+        let [train_track, bridge] = steps.inside;
+        let stepping = self.ended - begun;
+        Seconds {
+            initialization: begun,
+            train_track,
+            bridge,
+            master: steps.wall - train_track - bridge,
+            recording: stepping - steps.wall,
+            stepping,
         }
-        Ok(())
     }
-}
-
-/// Static equilibrium; its row; what trial steps show.
-fn initialise(connected: &mut Connected, axis: TimeAxis, log: &mut Log, probe: bool) -> Result<(), Error> {
-    let Connected { train_track, bridge, coupling, .. } = connected;
-    coupling.initialise(train_track, bridge, 0.0)?;
-    log.step(train_track, bridge, 0, 0.0, 0.0)?;
-    if probe {
-        let groups = bridge.ranges();
-        connected.probe = coupling.probe(train_track, bridge, &groups, axis)?;
-        judge(&connected.probe, train_track.instance().name(), &connected.parts)?;
-    }
-    Ok(())
-}
-
-fn simulate(
-    connected: &mut Connected,
-    axis: TimeAxis,
-    log: &mut Log,
-    stop: &AtomicBool,
-    begin: Instant,
-    seconds: &mut Seconds,
-) -> Result<(), Error> {
-    let Connected { train_track, bridge, coupling, .. } = connected;
-    let before = [inside(train_track), inside_all(bridge)];
-    seconds.initialization = begin.elapsed().as_secs_f64();
-    let begin = Instant::now();
-    let mut reading = [0.0; 2];
-    log.mark = begin;
-    let ended = run_steps(coupling, train_track, bridge, axis, |train_track, bridge, n, t, info| {
-        let stepped = Instant::now();
-        let inside_before = [inside(train_track), inside_all(bridge)];
-        log.iterations.count(info);
-        log.recorder.iteration(t, info, (stepped - log.mark).as_secs_f64())?;
-        log.step(train_track, bridge, n, t, axis.size(n - 1))?;
-        reading[0] += inside(train_track) - inside_before[0];
-        reading[1] += inside_all(bridge) - inside_before[1];
-        log.mark = Instant::now();
-        log.recording += (log.mark - stepped).as_secs_f64();
-        Ok::<_, Error>(if stop.load(Ordering::Relaxed) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) })
-    });
-    seconds.stepping = begin.elapsed().as_secs_f64();
-    seconds.recording = log.recording;
-    seconds.train_track = inside(train_track) - before[0] - reading[0];
-    seconds.bridge = inside_all(bridge) - before[1] - reading[1];
-    seconds.master = seconds.stepping - seconds.recording - seconds.train_track - seconds.bridge;
-    if ended?.is_break() { Err(Error::Interrupted) } else { Ok(()) }
-}
-
-/// Seconds spent inside an FMU so far.
-fn inside(fmu: &mut FmuSubsystem) -> f64 {
-    fmu.instance().tally().time.as_secs_f64()
-}
-
-fn inside_all(bridge: &mut BridgeSide) -> f64 {
-    bridge.parts().map(|part| inside(part.inner())).sum()
 }
 
 /// Summary and picture, also of a run that failed; its error is passed on.
@@ -250,18 +214,17 @@ fn finish(
     job: &Job,
     log: &Log,
     outcome: Result<(), Error>,
-    seconds: Seconds,
     connected: &Connected,
     folder: &Path,
     quiet: bool,
 ) -> Result<(), Error> {
     let coupling = CouplingReport::new(&connected.coupling, &connected.probe);
-    let (iterations, warnings) = (&log.iterations, &connected.warnings);
-    let summary = Summary::new(job, &outcome, log.reached, iterations, coupling, seconds, warnings, &log.peaks);
+    let (counted, warnings) = (&log.counted, &connected.warnings);
+    let summary = Summary::new(job, &outcome, log.reached, counted, coupling, log.seconds(), warnings, &log.peaks);
     let written = summary.write(&folder.join("summary.json"));
     if !quiet {
         summary.print(folder);
     }
-    let drawn = log.plot.draw(folder, &job.title);
+    let drawn = log.plot.draw(folder, &job.case.title);
     outcome.and(written).and(drawn)
 }

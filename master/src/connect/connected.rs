@@ -1,21 +1,24 @@
 //! From FMU files to two coupled subsystems: variables of equal name are connected, or those that maps name.
 
-use std::collections::{BTreeMap, HashMap};
+use std::collections::BTreeMap;
 use std::path::Path;
 
 use ttb_contract::Subsystem;
+use ttb_contract::names::mean_force;
 use ttb_coupling::probe::Probe;
-use ttb_coupling::{Adapted, Coupling, Joined, Settings};
+use ttb_coupling::{Adapted, Coupling, Joined, Lacks};
 use ttb_fmi::isolate::Isolation;
 use ttb_fmi::{Another, Fmu, FmuError, FmuInstance, FmuSubsystem};
 use ttb_scenario::Checked;
 use ttb_scenario::types::Send;
+use ttb_session::Case;
 
 use super::assign::{Assigned, Ends, assign, places, ranges};
 use super::equal::equal_names;
 use super::isolate::{self, Isolated};
 use super::map::{Map, Value};
 use super::parameters;
+use super::ports::in_order;
 use crate::error::Error;
 
 /// The bridge side of a run: one FMU or several, each as the iteration wants it.
@@ -118,18 +121,18 @@ pub fn connect(
         }
     };
     let parts = offered.into_iter().zip(assigned).collect();
-    couple(train_track, parts, checked.settings(), checked.scenario.coupling.send, checked.steps().step, warnings)
+    couple(train_track, parts, &Case::of(checked), checked.scenario.coupling.send, warnings)
 }
 
-/// Couples FMUs in initialization mode; `h` is the step to come, s.
+/// Couples FMUs in initialization mode.
 pub fn couple(
     train_track: FmuInstance,
     bridges: Vec<(Bridge, Assigned)>,
-    settings: Settings,
+    case: &Case,
     send: Send,
-    h: f64,
     mut warnings: Vec<String>,
 ) -> Result<Connected, Error> {
+    let settings = case.settings;
     if settings.max_iterations > 1 && !train_track.can_restore() {
         return Err(Error::Input(format!(
             "{} cannot save and restore its state (canGetAndSetFMUstate), so its steps cannot be repeated; one pass a step is \
@@ -142,9 +145,13 @@ pub fn couple(
     let mut forces_out = Ends::default();
     let (mut displacements, mut velocities) = (Ends::default(), Ends::default());
     let (mut sides, mut parts) = (Vec::new(), Vec::new());
-    for (bridge, assigned) in bridges {
+    for (bridge, mut assigned) in bridges {
+        let ports = in_order(&mut assigned, train_track.description(), case.axle_load);
+        let name = bridge.instance.name().to_string();
+        let ports = ports.ok_or_else(|| {
+            Error::Input(format!("{name}: a force that counts must be positive, not {} N", case.axle_load))
+        })?;
         let Bridge { instance, another, several, trusted } = bridge;
-        let name = instance.name().to_string();
         if settings.max_iterations > 1 && !(trusted && instance.can_restore()) {
             let cannot =
                 if trusted { "cannot save and restore its state (canGetAndSetFMUstate)" } else { "is not rolled back" };
@@ -171,23 +178,21 @@ pub fn couple(
             });
             side = side.without_roll_back(several.then_some(another));
         }
-        let (points, supports) = (assigned.forces_in.names.len(), assigned.forces_out.names.len());
         let plain = assigned.stations.is_none() && assigned.velocities;
         let side = if plain {
             Adapted::plain(side)
         } else {
-            Adapted::new(side, points, assigned.stations.clone(), assigned.velocities, h)
+            let (points, stations) = (assigned.forces_in.names.len(), assigned.stations.clone());
+            Adapted::new(side, Lacks { points, components: 1, stations, velocities: !assigned.velocities }, case.step)
         };
-        sides.push((side, supports));
         forces_out.extend(assigned.forces_out.clone());
-        let (d, v) = assigned.motions_in.clone().split(supports);
+        let (d, v) = assigned.motions_in.clone().split(ports.positions());
         displacements.extend(d);
         velocities.extend(v);
+        sides.push((side, ports));
         parts.push((name, assigned));
     }
     displacements.extend(velocities);
-    let (forces, motions) = (forces_out.names.len(), displacements.names.len());
-    let moved = moved(&forces_out.names, &displacements.names);
     if settings.mean_forces {
         means(&train_track, &mut forces_out.names)?;
     }
@@ -195,8 +200,9 @@ pub fn couple(
     if !train_track.can_interpolate() {
         warnings.push("the train–track FMU cannot interpolate inputs: the deck's motion is sent as held means".into());
     }
-    let (bridge, coupling) = (Joined::new(sides), Coupling::new(forces, motions, settings));
-    let coupling = coupling.with_displacements(moved);
+    let bridge = Joined::new(sides)
+        .ok_or_else(|| Error::Input("of several bridges every force must have a displacement and a velocity".into()))?;
+    let coupling = Coupling::new(bridge.ports().clone(), settings);
     Ok(Connected { train_track, bridge, coupling, warnings, parts, probe: Probe::default(), several: all_several })
 }
 
@@ -207,30 +213,12 @@ fn means(train_track: &FmuInstance, forces: &mut [String]) -> Result<(), Error> 
         return refused("inputs that can be interpolated (canInterpolateInputs)".into());
     }
     for force in forces {
-        *force = mean(force);
+        *force = mean_force(force);
         if train_track.description().variable(force).is_none() {
             return refused(format!("an output {force}"));
         }
     }
     Ok(())
-}
-
-/// Where each force finds its displacement among the motions, by the train–track FMU's names `….force` and
-/// `….displacement`; none if they are called otherwise.
-fn moved(forces: &[String], motions: &[String]) -> Vec<usize> {
-    let places: HashMap<&str, usize> = motions.iter().enumerate().map(|(i, name)| (name.as_str(), i)).collect();
-    let of_force = |force: &String| places.get(format!("{}.displacement", place(force)).as_str()).copied();
-    forces.iter().map(of_force).collect::<Option<_>>().unwrap_or_default()
-}
-
-/// The output with the mean over a step of a force, `support[3].force`.
-pub fn mean(force: &str) -> String {
-    format!("{}.mean_force", place(force))
-}
-
-/// `support[3]` of `support[3].force`.
-fn place(name: &str) -> &str {
-    name.rsplit_once('.').map_or(name, |(place, _)| place)
 }
 
 /// One side, by its coupled variables.

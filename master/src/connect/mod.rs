@@ -6,6 +6,7 @@ mod equal;
 pub mod isolate;
 pub mod map;
 mod parameters;
+mod ports;
 pub mod preload;
 pub mod probe;
 pub mod series;

@@ -1,35 +1,36 @@
 //! What the trial steps before the first one mean, in the words of the map.
 
-use ttb_coupling::probe::{Probe, is_lie};
-use ttb_coupling::verdict::{Response, Verdict};
+use ttb_coupling::probe::response::{Mismatch, Response};
+use ttb_coupling::probe::{Probe, returns};
+use ttb_session::RunError;
+use ttb_session::error::Refusal;
 
 use super::assign::Assigned;
-use crate::error::Error;
 
 /// Refuses what was found to be wrong; `parts` are the bridges.
-pub fn judge(probe: &Probe, train_track: &str, parts: &[(String, Assigned)]) -> Result<(), Error> {
-    if let Some(off) = probe.train_track.filter(|off| is_lie(*off)) {
-        return Err(Error::Fmu(format!("{train_track}: {}", lie(off))));
+pub fn judge(probe: &Probe, train_track: &str, parts: &[(String, Assigned)]) -> Result<(), RunError> {
+    if let Some(off) = probe.train_track.filter(|off| !returns(*off)) {
+        return Err(RunError::Refused(Refusal::Subsystem(format!("{train_track}: {}", no_return(off)))));
     }
-    if let Some(((name, _), off)) = parts.iter().zip(&probe.bridge).find(|(_, off)| is_lie(**off)) {
-        return Err(Error::Lies(format!("{name}: {}", lie(*off))));
+    if let Some(((name, _), off)) = parts.iter().zip(&probe.bridge).find(|(_, off)| !returns(**off)) {
+        return Err(RunError::Refused(Refusal::NoReturn(format!("{name}: {}", no_return(*off)))));
     }
     let problem = |((name, part), response): (&(String, Assigned), &Response)| {
-        let verdict = response.verdict()?;
-        Some(format!("{name}: {}", part.says(&verdict, response)))
+        let mismatch = response.mismatch()?;
+        Some(format!("{name}: {}", part.says(&mismatch, response)))
     };
     let problems: Vec<String> = parts.iter().zip(&probe.responses).filter_map(problem).collect();
     if problems.is_empty() {
         return Ok(());
     }
-    Err(Error::Input(format!(
+    Err(RunError::Refused(Refusal::Input(format!(
         "{}\nTrial forces before the first step show this. Factors are those of the map: their value = factor · ours in N, m, \
          m/s, down positive (--map, docs/guide/bridges.md). If all is as it should be: --no-probe.",
         problems.join("\n")
-    )))
+    ))))
 }
 
-fn lie(off: f64) -> String {
+fn no_return(off: f64) -> String {
     format!(
         "it says that it can save and restore its state (canGetAndSetFMUstate), but a step repeated from a restored state \
          differs by {off:.1e} of what other forces change"
@@ -42,7 +43,7 @@ impl Assigned {
         let (ends, at) = match key {
             "force" => (&self.forces_in, 0),
             "displacement" => (&self.motions_out, 0),
-            _ => (&self.motions_out, self.motions_out.names.len() / 2),
+            _ => (&self.motions_out, self.forces_in.names.len()),
         };
         let (name, line) = (&ends.names[at], ends.lines[at]);
         (name, if key == "force" { line.factor } else { line.factor.recip() })
@@ -57,18 +58,18 @@ impl Assigned {
         format!("\"{key}\" ({name} …): \"factor\": {:e}{}", factor * excess, unit(key, excess))
     }
 
-    /// What a verdict means for its variables.
-    fn says(&self, verdict: &Verdict, response: &Response) -> String {
+    /// What a mismatch means for its variables.
+    fn says(&self, mismatch: &Mismatch, response: &Response) -> String {
         const MOTIONS: [&str; 2] = ["displacement", "velocity"];
         let number = |i: usize| i + 1;
         let seen = || format!("the deck answers as if it had {:.2e} kg under each support", response.mass[0].abs());
-        match *verdict {
-            Verdict::Still(which) => {
+        match *mismatch {
+            Mismatch::Still(which) => {
                 let key = if self.velocities { MOTIONS[which] } else { MOTIONS[0] };
                 let (motion, force) = (self.first(key).0, self.first("force").0);
                 format!("{motion} and the like do not move under forces on {force} and the like")
             }
-            Verdict::Together(excess) => {
+            Mismatch::Together(excess) => {
                 let what = match (excess < 0.0, excess.abs() == 1.0) {
                     (true, true) => "the deck moves against the forces".to_string(),
                     (true, false) => format!("the deck moves against the forces, and {}", seen()),
@@ -78,7 +79,7 @@ impl Assigned {
                 let also = if self.velocities { format!(" and {v}") } else { String::new() };
                 format!("{what}; give {}; or else {d}{also}", self.mend("force", excess.recip()))
             }
-            Verdict::Alone(which, excess) => {
+            Mismatch::Alone(which, excess) => {
                 let how = if excess == -1.0 {
                     "has the opposite sign of".to_string()
                 } else {
@@ -91,17 +92,17 @@ impl Assigned {
                     self.mend(MOTIONS[which], excess)
                 )
             }
-            Verdict::OneOf(excess) => format!(
+            Mismatch::OneOf(excess) => format!(
                 "displacement and velocity do not belong together: the displacement is {excess:e} times the integral of the \
                  velocity; give {}, or {}",
                 self.mend(MOTIONS[0], excess),
                 self.mend(MOTIONS[1], excess.recip())
             ),
-            Verdict::Against(i) => format!(
+            Mismatch::Against(i) => format!(
                 "the displacement at support {} goes against a force there, at other supports it does not",
                 number(i)
             ),
-            Verdict::Mixed(i, j) => format!(
+            Mismatch::Mixed(i, j) => format!(
                 "a force at support {0} moves the deck at support {1}, and one at support {1} moves it at support {0}, as on no \
                  deck: forces and motions are not in the same order, or do not begin at the same number (\"first\")",
                 number(i),

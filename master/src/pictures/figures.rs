@@ -136,7 +136,7 @@ mod tests {
     fn pixels_and_vectors_of_a_rough_signal_are_the_same_picture() {
         const REACH: f64 = 4.0; // half the width of the broad line, 6 pixels, and one more
         let folder = tempfile::tempdir().unwrap();
-        let watched = Watched { point: 0, point_name: "mid".into(), car: 0, wheel: 0 };
+        let watched = Watched { point: "mid".into(), car: 1, wheel: 1 };
         draw(&[], Some(&rough()), &watched, folder.path()).unwrap();
         let stem = folder.path().join("figure-8-deck-acceleration");
         let svg = std::fs::read_to_string(stem.with_extension("svg")).unwrap();

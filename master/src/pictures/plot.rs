@@ -1,55 +1,41 @@
 //! results.svg and results.png: deck displacement, deck acceleration, car acceleration and contact force over time.
 
-use std::ops::Range;
+use std::ops::{ControlFlow, Range};
 use std::path::Path;
 
 use plotters::coord::Shift;
 use plotters::prelude::*;
+use ttb_session::column::Kind as Place;
+use ttb_session::observe::{Begin, GO_ON, Moment, Observer};
+use ttb_session::{Column, Of, Quantity, RunError};
 
 use super::canvas::{Drawing, Failed, SANS, save};
 use super::envelope::Envelope;
 use super::panel::{Curve, Panel, Stroke, names};
 use crate::error::Error;
-use crate::results::record::Recorder;
 use crate::results::scene::Scene;
 
-/// A panel: variables by the begin and end of their names, and how they are shown.
+/// A panel: a quantity of places of a kind, and how it is shown.
 struct Kind {
     title: &'static str,
-    begin: &'static str,
-    end: &'static str,
+    of: Place,
+    quantity: Quantity,
     factor: f64,
     /// Of monitored points: those that move down with the deck, or the others.
     aside: bool,
 }
 
+const fn kind(title: &'static str, of: Place, quantity: Quantity, factor: f64, aside: bool) -> Kind {
+    Kind { title, of, quantity, factor, aside }
+}
+
 const KINDS: [Kind; 6] = [
-    Kind { title: "Deck displacement, mm (down)", begin: "point[", end: "].displacement", factor: 1e3, aside: false },
-    Kind {
-        title: "Deck acceleration, m/s² (down)", begin: "point[", end: "].acceleration", factor: 1.0, aside: false
-    },
-    Kind { title: "Other points, displacement, mm", begin: "point[", end: "].displacement", factor: 1e3, aside: true },
-    Kind {
-        title: "Other points, acceleration, m/s²",
-        begin: "point[",
-        end: "].acceleration",
-        factor: 1.0,
-        aside: true,
-    },
-    Kind {
-        title: "Car body acceleration, m/s² (down)",
-        begin: "car[",
-        end: "].acceleration",
-        factor: 1.0,
-        aside: false,
-    },
-    Kind {
-        title: "Contact force of a wheelset, kN",
-        begin: "wheel[",
-        end: "].contact_force",
-        factor: 1e-3,
-        aside: false,
-    },
+    kind("Deck displacement, mm (down)", Place::Point, Quantity::Displacement, 1e3, false),
+    kind("Deck acceleration, m/s² (down)", Place::Point, Quantity::Acceleration, 1.0, false),
+    kind("Other points, displacement, mm", Place::Point, Quantity::Displacement, 1e3, true),
+    kind("Other points, acceleration, m/s²", Place::Point, Quantity::Acceleration, 1.0, true),
+    kind("Car body acceleration, m/s² (down)", Place::Car, Quantity::Acceleration, 1.0, false),
+    kind("Contact force of a wheelset, kN", Place::Wheel, Quantity::ContactForce, 1e-3, false),
 ];
 /// Curves in a panel at most: the first, the last and some in between.
 const CURVES: usize = 3;
@@ -62,6 +48,7 @@ const SHADED: &str = "train on the bridge";
 
 /// Time series of the variables that are drawn, thinned as they come.
 pub struct Plot {
+    scene: Scene,
     curves: Vec<Series>,
     stay: Stay,
     end: f64,
@@ -82,33 +69,44 @@ struct Stay {
     to: Option<f64>,
 }
 
-impl Plot {
-    /// Chooses the variables of a run to `end` s.
-    pub fn new(recorder: &Recorder, scene: &Scene, end: f64) -> Self {
-        let mut curves = Vec::new();
-        for (kind, Kind { begin, end: ending, aside, .. }) in KINDS.iter().enumerate() {
-            let columns = recorder.columns.iter().map(|column| column.name.as_str()).enumerate();
-            let of_kind = columns.filter(|(_, name)| name.contains(begin) && name.ends_with(ending));
-            let matches: Vec<(usize, &str)> =
-                of_kind.filter(|(_, name)| scene.direction(name).is_some() == *aside).collect();
+impl Observer for Plot {
+    /// Chooses the variables.
+    fn start(&mut self, begin: &Begin) -> Result<(), RunError> {
+        self.end = begin.axis.time(begin.axis.steps());
+        for (kind, Kind { of, quantity, aside, .. }) in KINDS.iter().enumerate() {
+            let fits =
+                |column: &Column| column.is(*of, quantity) && self.scene.direction(&column.of).is_some() == *aside;
+            let matches: Vec<usize> = (0..begin.columns.len()).filter(|i| fits(&begin.columns[*i])).collect();
             let count = matches.len().min(CURVES);
             let chosen = (0..count).map(|i| matches[if count > 1 { i * (matches.len() - 1) / (count - 1) } else { 0 }]);
-            curves.extend(chosen.map(|(column, name)| {
-                let how = scene.direction(name).map_or_else(String::new, |how| format!(" {how}"));
-                Series { kind, column, name: short(name) + &how, envelope: Envelope::new(0.0, end) }
+            self.curves.extend(chosen.map(|column| {
+                let of = &begin.columns[column].of;
+                let how = self.scene.direction(of).map_or_else(String::new, |how| format!(" {how}"));
+                Series { kind, column, name: short(of) + &how, envelope: Envelope::new(0.0, self.end) }
             }));
         }
-        let wheels: Vec<usize> = (1..).map_while(|wheel| recorder.find(&format!("wheel[{wheel}].position"))).collect();
-        let wheels = wheels.first().zip(wheels.last()).map(|(first, last)| [*first, *last]);
-        Self { curves, stay: Stay { deck: scene.deck, wheels, from: None, to: None }, end }
+        let is_position = |column: &Column| column.is(Place::Wheel, &Quantity::Position);
+        let place = |i: &Column| begin.columns.iter().position(|column| column == i);
+        let mut wheels = begin.columns.iter().filter(|column| is_position(column));
+        let first = wheels.next().and_then(place);
+        self.stay.wheels = first.map(|first| [first, wheels.next_back().and_then(place).unwrap_or(first)]);
+        Ok(())
     }
 
-    /// Takes in a row.
-    pub fn update(&mut self, row: &[f64], time: f64) {
-        self.curves
-            .iter_mut()
-            .for_each(|series| series.envelope.add(time, row[series.column] * KINDS[series.kind].factor));
-        self.stay.update(row, time);
+    fn step(&mut self, moment: &Moment) -> Result<ControlFlow<()>, RunError> {
+        for series in &mut self.curves {
+            series.envelope.add(moment.t, moment.row[series.column] * KINDS[series.kind].factor);
+        }
+        self.stay.update(moment.row, moment.t);
+        GO_ON
+    }
+}
+
+impl Plot {
+    /// Of a run over a scene.
+    pub fn new(scene: Scene) -> Self {
+        let stay = Stay { deck: scene.deck, wheels: None, from: None, to: None };
+        Self { scene, curves: Vec::new(), stay, end: 0.0 }
     }
 
     /// Draws results.svg and results.png into a folder.
@@ -131,10 +129,14 @@ impl Plot {
     }
 }
 
-/// `A` of `point[A].displacement`, `car 1` of `car[1].acceleration`.
-fn short(name: &str) -> String {
-    let short = name.rsplit_once("].").map_or(name, |(short, _)| short);
-    short.replace("point[", "").replace('[', " ")
+/// `A` of `point[A]`, `car 1` of `car[1]`.
+fn short(of: &Of) -> String {
+    match of {
+        Of::Point(name) => name.clone(),
+        Of::Car(number) => format!("car {number}"),
+        Of::Wheel(number) => format!("wheel {number}"),
+        other => other.to_string(),
+    }
 }
 
 impl Stay {

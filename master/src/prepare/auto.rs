@@ -9,6 +9,7 @@
 
 use std::path::Path;
 
+use ttb_contract::finite::{larger, largest};
 use ttb_scenario::Checked;
 use ttb_scenario::step::{Excited, Steps};
 
@@ -18,7 +19,6 @@ use crate::connect::connected::Given;
 use crate::connect::isolate::Isolated;
 use crate::error::Error;
 use crate::results::choice::{Choice, KindError, Tried};
-use crate::results::names::kind;
 
 /// Greatest error where the scenario says nothing.
 const ERROR: f64 = 0.02;
@@ -53,7 +53,7 @@ pub fn choose(checked: &mut Checked, given: &[Given], isolated: &Isolated) -> Re
         let half = Steps { step: 0.5 * steps.step, ..steps };
         let fine = stretch::run(&short, half, &stage)?;
         choice.errors = coarse.as_ref().zip(fine.as_ref()).map_or_else(Vec::new, |(coarse, fine)| errors(coarse, fine));
-        let worst = choice.errors.iter().map(|kind| kind.error).reduce(f64::max);
+        let worst = choice.errors.iter().map(|kind| kind.error).reduce(larger);
         choice.tried.push(Tried { step_s: steps.step, substeps: steps.substeps, error: worst });
         checked.set_steps(steps);
         if worst.is_some_and(|error| error <= choice.allowed_error) {
@@ -78,23 +78,22 @@ fn errors(coarse: &[Seen], fine: &[Seen]) -> Vec<KindError> {
     let mut kinds: Vec<(String, f64, f64)> = Vec::new();
     for (a, b) in coarse.iter().zip(fine) {
         let at_times = a.history.iter().zip(&b.history).map(|(a, b)| change(a.iter().zip(b.iter().step_by(2))));
-        let change = at_times.fold(change(a.range.iter().zip(&b.range)), f64::max);
-        let size = b.range.iter().map(|x| x.abs()).fold(0.0, f64::max);
-        let name = kind(&a.name);
-        match kinds.iter_mut().find(|known| known.0 == name) {
-            Some(known) => (known.1, known.2) = (known.1.max(change), known.2.max(size)),
-            None => kinds.push((name, change, size)),
+        let change = at_times.fold(change(a.range.iter().zip(&b.range)), larger);
+        let size = largest(b.range.iter().map(|x| x.abs()));
+        match kinds.iter_mut().find(|known| known.0 == a.series) {
+            Some(known) => (known.1, known.2) = (larger(known.1, change), larger(known.2, size)),
+            None => kinds.push((a.series.clone(), change, size)),
         }
     }
     let error = |(kind, change, size): (String, f64, f64)| KindError {
         kind,
-        error: if size > 0.0 { RICHARDSON * change / size } else { 0.0 },
+        error: if size == 0.0 { 0.0 } else { RICHARDSON * change / size },
     };
     kinds.into_iter().map(error).collect()
 }
 
 fn change<'a>(pairs: impl Iterator<Item = (&'a f64, &'a f64)>) -> f64 {
-    pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
+    largest(pairs.map(|(a, b)| (a - b).abs()))
 }
 
 #[cfg(test)]
@@ -103,12 +102,12 @@ mod tests {
 
     #[test]
     fn an_error_is_that_of_the_worst_member_relative_to_the_largest() {
-        let seen = |name: &str, range, history: Option<&[f64]>| Seen {
-            name: name.into(),
+        let seen = |series: &str, range, history: Option<&[f64]>| Seen {
+            series: series.into(),
             range,
             history: history.map(<[f64]>::to_vec),
         };
-        let (force, point) = ("wheel[1].contact_force", "point[mid].acceleration");
+        let (force, point) = ("wheel[].contact_force", "point[].acceleration");
         let coarse = [seen(force, [0.0, 99.0], Some(&[0.0, 90.0, 10.0])), seen(point, [-0.5, 1.0], None)];
         // The fine steps end on the coarse ones, too; the last coarse one was shortened.
         let fine = [seen(force, [0.0, 100.0], Some(&[0.0, 100.0, 87.0, 50.0])), seen(point, [-0.5, 1.1], None)];
@@ -117,7 +116,7 @@ mod tests {
         assert!(found[1].0 == "point[].acceleration" && (found[1].1 - RICHARDSON * 0.1 / 1.1).abs() < 1e-15);
         // The worst member counts, relative to the largest.
         let (worse, other) =
-            (seen("wheel[2].contact_force", [0.0, 40.0], None), seen("wheel[2].contact_force", [0.0, 50.0], None));
+            (seen("wheel[].contact_force", [0.0, 40.0], None), seen("wheel[].contact_force", [0.0, 50.0], None));
         let both = errors(&[coarse[0].clone(), worse], &[fine[0].clone(), other]);
         assert_eq!((both.len(), both[0].error), (1, RICHARDSON * 10.0 / 100.0));
     }

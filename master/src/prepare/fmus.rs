@@ -3,10 +3,11 @@
 use std::path::{Path, PathBuf};
 
 use ttb_bridge::Bridge;
-use ttb_contract::Model;
+use ttb_contract::{Model, ModelError};
 use ttb_model_description::package::LIBRARY_EXTENSION;
 use ttb_model_description::{About, Contents, pack};
 use ttb_scenario::Checked;
+use ttb_session::{Case, Sides};
 use ttb_train_track::TrainTrack;
 
 use crate::error::Error;
@@ -58,6 +59,14 @@ pub fn scenario(path: Option<&Path>) -> Result<Checked, Error> {
 pub fn build(checked: &Checked, folder: &Path) -> Result<Built, Error> {
     std::fs::create_dir_all(folder).map_err(Error::io(folder))?;
     Ok(Built { train_track: train_track(checked, folder)?, bridge: bridge(checked, folder)? })
+}
+
+/// Both subsystems in this process, in initialization mode.
+pub fn sides(checked: &Checked) -> Result<Sides<TrainTrack, Bridge>, Error> {
+    let refused = |e: ModelError| Error::Input(e.to_string());
+    let train_track = TrainTrack::new(checked.train_track.clone()).map_err(refused)?;
+    let bridge = Bridge::new(checked.bridge.clone()).map_err(refused)?;
+    Sides::new(train_track, bridge, &Case::of(checked)).map_err(refused)
 }
 
 /// Writes TrainTrack.fmu.

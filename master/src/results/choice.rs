@@ -2,8 +2,6 @@
 
 use serde::Serialize;
 
-use super::names::kind;
-
 /// What was chosen, and why.
 #[derive(Clone, Debug, Serialize)]
 pub struct Choice {
@@ -42,10 +40,9 @@ pub struct KindError {
 }
 
 impl Choice {
-    /// Estimated error of a quantity, relative to its peak.
-    pub fn error(&self, name: &str) -> Option<f64> {
-        let name = kind(name);
-        self.errors.iter().find(|known| known.kind == name).map(|known| known.error)
+    /// Estimated error of a series of columns, relative to its greatest peak.
+    pub fn error(&self, series: &str) -> Option<f64> {
+        self.errors.iter().find(|known| known.kind == series).map(|known| known.error)
     }
 
     /// Progress for people, on standard error.

@@ -2,29 +2,21 @@
 
 use ttb_scenario::Checked;
 use ttb_scenario::spec::Profile;
-use ttb_scenario::types::Output;
+use ttb_session::Case;
 
 use super::choice::Choice;
 use super::scene::Scene;
 
 /// A run to be done.
 pub struct Job {
-    /// One line for people.
-    pub title: String,
+    /// What is coupled, how and how long.
+    pub case: Case,
     /// Where it comes from.
     pub origin: Origin,
     /// Seed of a random irregularity, where it is known.
     pub irregularity_seed: Option<u64>,
-    /// Macro step, s.
-    pub step: f64,
-    /// Internal steps of train and track in each of them.
-    pub substeps: usize,
-    /// Why they are these, if they were left to the program.
+    /// Why the steps are as they are, if they were left to the program.
     pub choice: Option<Choice>,
-    /// End, s.
-    pub end: f64,
-    /// What is recorded.
-    pub output: Output,
     /// What a picture needs to know.
     pub scene: Scene,
 }
@@ -41,17 +33,13 @@ impl Job {
     /// Of a scenario whose steps are known.
     pub fn new(checked: &Checked, choice: Option<Choice>) -> Self {
         Self {
-            title: checked.scenario.title.clone(),
+            case: Case::of(checked),
             origin: Origin::Scenario(checked.hash.clone()),
             irregularity_seed: match checked.train_track.irregularity {
                 Profile::Spectrum { seed, .. } => Some(seed),
                 _ => None,
             },
-            step: checked.steps().step,
-            substeps: checked.steps().substeps,
             choice,
-            end: checked.train_track.end,
-            output: checked.scenario.output,
             scene: Scene::new(checked),
         }
     }

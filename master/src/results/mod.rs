@@ -3,9 +3,7 @@
 pub mod choice;
 pub mod coupled;
 pub mod job;
-pub mod names;
 pub mod peaks;
 pub mod ran;
-pub mod record;
 pub mod scene;
 pub mod summary;

@@ -1,6 +1,8 @@
 //! What a row leaves: four histories and what they took.
 
+use ttb_contract::finite::largest;
 use ttb_scenario::Checked;
+use ttb_session::{Column, Of, Quantity as Measured};
 
 use crate::error::Error;
 
@@ -26,13 +28,11 @@ pub struct Quantity {
 
 /// Which point, car and wheelset are compared.
 pub struct Watched {
-    /// Position among the monitored points.
-    pub point: usize,
-    /// Its name.
-    pub point_name: String,
-    /// Car from 0.
+    /// Name of the monitored point.
+    pub point: String,
+    /// Car from 1.
     pub car: usize,
-    /// Wheelset from 0.
+    /// Wheelset from 1.
     pub wheel: usize,
 }
 
@@ -54,22 +54,32 @@ impl Watched {
         let within = |option: &str, value: usize, most: usize| {
             let fits = (1..=most).contains(&value);
             let wrong = || Error::Input(format!("--{option} is {value}; the train has 1 to {most}"));
-            if fits { Ok(value - 1) } else { Err(wrong()) }
+            if fits { Ok(value) } else { Err(wrong()) }
         };
         Ok(Self {
-            point: at,
-            point_name: points[at].name.clone(),
+            point: points[at].name.clone(),
             car: within("car", car, cars)?,
             wheel: within("wheel", wheel, 4 * cars)?,
         })
     }
 
+    /// Which of [`QUANTITIES`] a column is.
+    pub fn which(&self, column: &Column) -> Option<usize> {
+        match (&column.of, &column.quantity) {
+            (Of::Point(name), Measured::Displacement) if *name == self.point => Some(0),
+            (Of::Point(name), Measured::Acceleration) if *name == self.point => Some(1),
+            (Of::Car(car), Measured::Acceleration) if *car == self.car => Some(2),
+            (Of::Wheel(wheel), Measured::ContactForce) if *wheel == self.wheel => Some(3),
+            _ => None,
+        }
+    }
+
     /// For titles.
     pub fn describe(&self, quantity: usize) -> String {
         let place = match quantity {
-            0 | 1 => format!("at {}", self.point_name),
-            2 => format!("of car {}", self.car + 1),
-            _ => format!("of wheelset {}", self.wheel + 1),
+            0 | 1 => format!("at {}", self.point),
+            2 => format!("of car {}", self.car),
+            _ => format!("of wheelset {}", self.wheel),
         };
         format!("{} {place}", QUANTITIES[quantity].name)
     }
@@ -105,12 +115,6 @@ pub struct Ran {
 }
 
 impl Ran {
-    /// Takes in a row of the four quantities.
-    pub fn record(&mut self, t: f64, values: [f64; 4]) {
-        self.time.push(t);
-        self.histories.iter_mut().zip(values).for_each(|(history, x)| history.push(x));
-    }
-
     /// CPU seconds of a step.
     pub fn per_step(&self) -> f64 {
         self.stepping / self.taken.max(1) as f64
@@ -139,12 +143,12 @@ impl Ran {
     /// Greatest absolute value of a quantity up to time `t`.
     pub fn peak(&self, quantity: usize, t: f64) -> f64 {
         let rows = self.time.partition_point(|time| *time <= t * (1.0 + 1e-12));
-        self.histories[quantity][..rows].iter().fold(0.0, |peak, x| peak.max(x.abs()))
+        largest(self.histories[quantity][..rows].iter().map(|x| x.abs()))
     }
 
     /// Greatest difference of a quantity from another run of the same step, as far as both go.
     pub fn difference(&self, other: &Self, quantity: usize) -> f64 {
         let pairs = self.histories[quantity].iter().zip(&other.histories[quantity]);
-        pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
+        largest(pairs.map(|(a, b)| (a - b).abs()))
     }
 }

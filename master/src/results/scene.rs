@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use ttb_scenario::Checked;
 use ttb_scenario::deck::Deck;
 use ttb_scenario::types::Direction;
+use ttb_session::Of;
 
 /// Deck and points of a run; of a system structure nothing is known.
 #[derive(Clone, Debug, Default)]
@@ -31,9 +32,9 @@ impl Scene {
         }
     }
 
-    /// The direction of a point that is no vertical point of the deck, by an output's name.
-    pub fn direction(&self, output: &str) -> Option<&'static str> {
-        let name = output.split_once("point[")?.1.split_once(']')?.0;
+    /// The direction of a point that is no vertical point of the deck.
+    pub fn direction(&self, of: &Of) -> Option<&'static str> {
+        let Of::Point(name) = of else { return None };
         self.nodes.get(name).copied()
     }
 }

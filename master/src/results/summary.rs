@@ -3,61 +3,15 @@
 use std::path::Path;
 
 use serde::Serialize;
-use ttb_coupling::StepInfo;
-use ttb_coupling::iteration::Outcome;
+use ttb_session::Quantity;
+use ttb_session::column::{Column, Kind};
+use ttb_session::observe::{ContactLoss, Iterations, Peaks};
 
 use super::choice::Choice;
 use super::coupled::CouplingReport;
 use super::job::{Job, Origin};
-use super::peaks::{ContactLoss, Peak, Peaks};
+use super::peaks::{Peak, told};
 use crate::error::Error;
-
-/// Iterations over a run.
-#[derive(Clone, Debug, Default, Serialize)]
-pub struct Iterations {
-    /// Steps taken.
-    pub steps: u64,
-    /// Mean number of trials a step.
-    pub mean: f64,
-    /// Greatest number of trials of a step.
-    pub max: usize,
-    /// Greatest accepted residual, relative to the support forces or one axle load.
-    pub max_residual: f64,
-    /// States restored to try again.
-    pub roll_backs: u64,
-    /// Halvings of a step.
-    pub halvings: u64,
-    /// Steps accepted without convergence.
-    pub not_converged: u64,
-    /// Mean number of steps of the train–track FMU a step.
-    pub mean_train_track: f64,
-    /// Steps that were begun again by quasi-Newton with an empty memory.
-    pub rescues: u64,
-    /// Steps taken once, without iteration, since the bridge cannot roll back.
-    pub explicit: u64,
-    #[serde(skip)]
-    total: u64,
-    #[serde(skip)]
-    total_train_track: u64,
-}
-
-impl Iterations {
-    /// Counts a step.
-    pub fn count(&mut self, info: &StepInfo) {
-        self.steps += 1;
-        self.total += info.iterations as u64;
-        self.mean = self.total as f64 / self.steps as f64;
-        self.max = self.max.max(info.iterations);
-        self.max_residual = self.max_residual.max(info.residual);
-        self.roll_backs += info.roll_backs as u64;
-        self.halvings += info.halvings as u64;
-        self.not_converged += u64::from(info.outcome == Outcome::IterationLimit);
-        self.total_train_track += info.train_track_trials as u64;
-        self.mean_train_track = self.total_train_track as f64 / self.steps as f64;
-        self.rescues += info.rescues as u64;
-        self.explicit += u64::from(info.outcome == Outcome::Explicit);
-    }
-}
 
 /// Wall seconds.
 #[derive(Clone, Copy, Debug, Default, Serialize)]
@@ -104,7 +58,7 @@ pub struct Summary<'a> {
     times_faster_than_real_time: f64,
     warnings: &'a [String],
     contact_losses: Vec<ContactLoss>,
-    peaks: &'a [Peak],
+    peaks: Vec<Peak>,
 }
 
 #[derive(Debug, Serialize)]
@@ -132,15 +86,15 @@ impl<'a> Summary<'a> {
         Self {
             status: outcome.as_ref().map_or_else(Error::status, |()| "ok"),
             error: outcome.as_ref().err().map(ToString::to_string),
-            title: &job.title,
+            title: &job.case.title,
             scenario_sha256,
             system_sha256,
             irregularity_seed: job.irregularity_seed,
             versions: Versions { ttb: env!("CARGO_PKG_VERSION"), fmi: "2.0" },
-            step_s: job.step,
-            substeps: job.substeps,
+            step_s: job.case.step,
+            substeps: job.case.substeps,
             step_choice: job.choice.as_ref(),
-            end_s: job.end,
+            end_s: job.case.end,
             reached_s: reached,
             iterations,
             coupling,
@@ -148,7 +102,7 @@ impl<'a> Summary<'a> {
             times_faster_than_real_time: if seconds.stepping > 0.0 { reached / seconds.stepping } else { 0.0 },
             warnings,
             contact_losses: peaks.contact_losses(),
-            peaks: peaks.all(),
+            peaks: told(peaks, job.choice.as_ref()),
         }
     }
 
@@ -183,7 +137,9 @@ impl<'a> Summary<'a> {
         if i.not_converged > 0 {
             say!("  NOT CONVERGED   {} of {} steps were accepted all the same", i.not_converged, i.steps);
         }
-        for peak in self.peaks.iter().filter(|p| p.name.contains("point[")) {
+        let columns: Vec<Column> = self.peaks.iter().map(|peak| Column::parse(&peak.name, &peak.unit)).collect();
+        let at_points = self.peaks.iter().zip(&columns).filter(|(_, column)| column.of.kind() == Kind::Point);
+        for (peak, _) in at_points {
             let (factor, unit) = readable(&peak.unit);
             let (low, high) = (&peak.min, &peak.max);
             say!(
@@ -195,8 +151,8 @@ impl<'a> Summary<'a> {
                 high.time
             );
         }
-        self.print_over("car[", "].acceleration", "car bodies, acceleration");
-        self.print_over("wheel[", "].contact_force", "wheelsets, contact force");
+        self.print_over(&columns, Kind::Car, &Quantity::Acceleration, "car bodies, acceleration");
+        self.print_over(&columns, Kind::Wheel, &Quantity::ContactForce, "wheelsets, contact force");
         for loss in &self.contact_losses {
             say!(
                 "  wheel {} lost contact {} times, {:.4} s in all, {:.4} s at most",
@@ -210,8 +166,9 @@ impl<'a> Summary<'a> {
     }
 
     /// Extremes over all variables of a kind.
-    fn print_over(&self, begin: &str, end: &str, text: &str) {
-        let of_kind = || self.peaks.iter().filter(|p| p.name.starts_with(begin) && p.name.ends_with(end));
+    fn print_over(&self, columns: &[Column], kind: Kind, quantity: &Quantity, text: &str) {
+        let own = self.peaks.iter().zip(columns).filter(|(_, column)| column.is(kind, quantity));
+        let of_kind = || own.clone().map(|(peak, _)| peak);
         let low = of_kind().min_by(|a, b| a.min.value.total_cmp(&b.min.value));
         let high = of_kind().max_by(|a, b| a.max.value.total_cmp(&b.max.value));
         if let (Some(low), Some(high)) = (low, high) {

@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use ttb_contract::names::mean_force;
 use ttb_fmi::archive::unpack;
 use ttb_fmi::description::{ModelDescription, VariableType};
 use ttb_fmi2::import::read_description;
@@ -13,7 +14,6 @@ use ttb_ssp::{
 
 use super::annotation::{Settings, write};
 use crate::cli::ExportSsp;
-use crate::connect::connected::mean;
 use crate::error::Error;
 use crate::prepare::auto::decided;
 use crate::prepare::fmus;
@@ -76,7 +76,7 @@ fn structure(checked: &Checked, [train_track, bridge]: &[ModelDescription; 2]) -
     };
     let [first, second] = COMPONENTS.map(|(name, _)| name);
     let equal = |input: &str| input.to_string();
-    let of_force = |input: &str| if settings.substeps > 1 { mean(input) } else { input.to_string() };
+    let of_force = |input: &str| if settings.substeps > 1 { mean_force(input) } else { input.to_string() };
     let forces = connections((first, train_track), (second, bridge), &of_force);
     let motions = connections((second, bridge), (first, train_track), &equal);
     let mut units: Vec<Unit> = Vec::new();

@@ -9,6 +9,7 @@ use ttb_fmi::Fmu;
 use ttb_fmi::archive::{UnpackError, unpack};
 use ttb_fmi::isolate::Isolation;
 use ttb_fmi::temporary::Temporary;
+use ttb_session::Case;
 use ttb_ssp::{Report, STRUCTURE, Structure};
 
 use super::annotation::{self, Settings};
@@ -72,15 +73,21 @@ impl Opened {
         let forces = ends(&links, train_track, &fmus, false);
         let assigned = Assigned::one_to_one(forces, ends(&links, 1 - train_track, &fmus, true));
         let title = structure.system.description.or(structure.description).unwrap_or(structure.name);
-        let job = Job {
+        let case = Case {
             title,
-            origin: Origin::System(fingerprint(path)?),
-            irregularity_seed: None,
+            settings: ttb_session::case::settings(&settings.coupling, settings.substeps),
+            axle_load: settings.force_scale,
             step,
             substeps: settings.substeps,
-            choice: None,
             end,
-            output: settings.output,
+            every: settings.output.every as u64,
+            supports: settings.output.supports,
+        };
+        let job = Job {
+            case,
+            origin: Origin::System(fingerprint(path)?),
+            irregularity_seed: None,
+            choice: None,
             scene: Scene::default(),
         };
         if isolation.is_some() && isolated.train_track.is_none() {
@@ -97,13 +104,11 @@ impl Opened {
     pub fn connect(&self, isolated: &Isolated, trusted: bool) -> Result<Connected, Error> {
         let (name, fmu) = &self.train_track;
         let none = BTreeMap::new();
-        let train_track = instantiate(fmu, name, self.job.end, &none)?;
+        let train_track = instantiate(fmu, name, self.job.case.end, &none)?;
         let (name, path) = &self.bridge;
-        let bridge = Bridge::open(path, name, isolated.bridge.as_ref(), self.job.end, &none)?;
-        let Settings { coupling, force_scale, substeps, .. } = &self.settings;
-        let settings = coupling.settings(*force_scale, *substeps);
+        let bridge = Bridge::open(path, name, isolated.bridge.as_ref(), self.job.case.end, &none)?;
         let parts = vec![(Bridge { trusted, ..bridge }, self.assigned.clone())];
-        couple(train_track, parts, settings, coupling.send, self.job.step, self.warnings.clone())
+        couple(train_track, parts, &self.job.case, self.settings.coupling.send, self.warnings.clone())
     }
 }
 

@@ -5,10 +5,8 @@
 //! train–track   G_i = load_i(t) − d_i − c d_i²/200
 //! ```
 
-use ttb_contract::{Failure, Subsystem};
-use ttb_coupling::iteration::OnFailure;
-use ttb_coupling::predictor::Predictor;
-use ttb_coupling::{Method, Settings};
+use ttb_contract::{Failure, Ports, Subsystem};
+use ttb_coupling::{Method, OnFailure, Predictor, Settings};
 
 /// Forces.
 pub const N: usize = 40;
@@ -20,10 +18,10 @@ pub struct Side {
     is_bridge: bool,
     /// No load, as before a train comes.
     pub at_rest: bool,
-    /// Offers directional derivatives, wrong by the factor `lie`.
+    /// Offers directional derivatives, too large by the factor `excess`.
     pub derives: bool,
     /// See `derives`.
-    pub lie: f64,
+    pub excess: f64,
     /// Refuses to step with an input above this.
     pub strongest: f64,
     /// Output number 3 is infinite from this time on.
@@ -41,7 +39,7 @@ pub fn pair(rho: f64, curvature: f64) -> (Side, Side) {
         let (inputs, outputs) = if is_bridge { (N, 2 * N) } else { (2 * N, N) };
         let (input, rate, output, saved) =
             (vec![0.0; inputs], vec![0.0; inputs], vec![0.0; outputs], vec![0.0; outputs]);
-        let (at_rest, derives, lie, strongest, time) = (false, false, 1.0, f64::INFINITY, 0.0);
+        let (at_rest, derives, excess, strongest, time) = (false, false, 1.0, f64::INFINITY, 0.0);
         let infinite_from = f64::INFINITY;
         Side {
             rho,
@@ -49,7 +47,7 @@ pub fn pair(rho: f64, curvature: f64) -> (Side, Side) {
             is_bridge,
             at_rest,
             derives,
-            lie,
+            excess,
             strongest,
             infinite_from,
             input,
@@ -62,6 +60,11 @@ pub fn pair(rho: f64, curvature: f64) -> (Side, Side) {
     (side(false), side(true))
 }
 
+/// N vertical ports; a force of 100 N counts.
+pub fn ports() -> Ports {
+    Ports::vertical(N, 100.0)
+}
+
 /// Settings for a method.
 pub fn settings(method: Method) -> Settings {
     Settings {
@@ -69,7 +72,6 @@ pub fn settings(method: Method) -> Settings {
         reuse: 3,
         predictor: Predictor::Linear,
         tolerance: 1e-9,
-        force_scale: 100.0,
         max_iterations: 30,
         hold_forces: false,
         mean_forces: false,
@@ -160,7 +162,7 @@ impl Subsystem for Side {
     }
     fn derivative(&mut self, seed: &[f64], change: &mut [f64]) -> Result<(), Failure> {
         self.answer(seed, change);
-        change.iter_mut().for_each(|c| *c *= self.lie);
+        change.iter_mut().for_each(|c| *c *= self.excess);
         Ok(())
     }
 }

@@ -187,40 +187,6 @@ impl Default for CouplingSettings {
     }
 }
 
-impl CouplingSettings {
-    /// The iteration's settings; `axle_load` is the train's greatest static one, N, `substeps` are those of train and track.
-    pub fn settings(&self, axle_load: f64, substeps: usize) -> ttb_coupling::Settings {
-        use ttb_coupling::predictor::Predictor as First;
-        use ttb_coupling::settings as to;
-        to::Settings {
-            method: match self.method {
-                Method::FixedPoint => to::Method::FixedPoint,
-                Method::Aitken => to::Method::Aitken,
-                Method::IqnIls => to::Method::IqnIls,
-                Method::Newton => to::Method::Newton,
-                Method::Auto => to::Method::Auto,
-            },
-            reuse: self.reuse,
-            predictor: match self.predictor {
-                Predictor::Constant => First::Constant,
-                Predictor::Linear => First::Linear,
-                Predictor::Quadratic => First::Quadratic,
-                Predictor::Cubic => First::Cubic,
-            },
-            tolerance: self.tolerance,
-            force_scale: axle_load,
-            max_iterations: self.max_iterations,
-            hold_forces: self.send == Send::Mean,
-            mean_forces: substeps > 1,
-            on_failure: match self.on_failure {
-                OnFailure::Stop => to::OnFailure::Stop,
-                OnFailure::Halve => to::OnFailure::Halve,
-                OnFailure::Accept => to::OnFailure::Accept,
-            },
-        }
-    }
-}
-
 /// What goes into results.csv.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[schemars(deny_unknown_fields)]

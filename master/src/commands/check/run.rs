@@ -2,7 +2,7 @@
 
 use std::time::{Duration, Instant};
 
-use ttb_coupling::dense::not_finite;
+use ttb_contract::finite::not_finite;
 
 use super::context::Context;
 use super::drive::{Drive, open};

@@ -1,6 +1,6 @@
 //! Step sizes as masters send them: with rounding noise, halved, next to nothing.
 
-use ttb_coupling::dense::not_finite;
+use ttb_contract::finite::not_finite;
 
 use super::context::Context;
 use super::drive::{Drive, open, reference};

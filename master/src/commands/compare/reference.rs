@@ -1,12 +1,11 @@
 //! Rows of the paper's other methods.
 
-use std::sync::atomic::Ordering;
-
-use ttb_reference::{Method as Reference, ReferenceError, StepReport, Stepper, Whole};
+use ttb_reference::{Method as Reference, ReferenceError, Stepped, Stepper, Whole};
 use ttb_scenario::Checked;
 use ttb_scenario::spec::TrainTrackSpec;
+use ttb_session::TimeAxis;
 
-use super::bench::{Bench, progress};
+use super::bench::Bench;
 use super::rows::{Method, Planned};
 use crate::clock::cpu;
 use crate::error::Error;
@@ -66,37 +65,15 @@ pub fn run(bench: &Bench, row: &Planned, prepared: &mut Prepared) -> Result<Ran,
             Reference::Lcm(1.0)
         }
     };
-    let mut stepper = Stepper::new(whole, method, row.step, tolerance).map_err(case)?;
+    let stepper = Stepper::new(whole, method, row.step, tolerance).map_err(case)?;
     // A last step that the step does not divide is left out.
-    let steps = (bench.checked.train_track.end / row.step + 1e-9).floor() as u64;
-    let mut ran = Ran { method: row.name.clone(), step: row.step, steps, notes, ..Ran::default() };
+    let steps = (bench.checked.train_track.end / row.step + 1e-9).floor();
+    let mut ran = Ran { method: row.name.clone(), step: row.step, steps: steps as u64, notes, ..Ran::default() };
     ran.preparation = shared + cpu() - begin;
-    let watched = &bench.watched;
-    let read = |stepper: &Stepper| {
-        let ([u, _, a], state) = (stepper.point(watched.point), stepper.state());
-        [u, a, state.cars.a[10 * watched.car], state.forces[watched.wheel]]
-    };
-    ran.record(0.0, read(&stepper));
-    let bar = progress(bench, &row.name, steps);
-    let begin = cpu();
-    for n in 1..=steps {
-        let StepReport { iterations, factors } = match stepper.step() {
-            Ok(report) => report,
-            Err(error) => {
-                ran.failure = Some(error.to_string());
-                break;
-            }
-        };
-        ran.record(stepper.time(), read(&stepper));
-        (ran.taken, ran.iterations) = (n, ran.iterations + iterations as u64);
-        ran.factors += factors as u64;
-        bar.set_position(n);
-        ran.stepping = cpu() - begin;
-        if ran.stepping > bench.budget || bench.stop.load(Ordering::Relaxed) {
-            break;
-        }
-    }
-    bar.finish_and_clear();
+    let points = bench.checked.bridge.points.iter().map(|point| point.name.clone()).collect();
+    let mut stepped = Stepped::new(stepper, points);
+    bench.step(&mut stepped, TimeAxis::new(row.step, steps * row.step), &mut ran)?;
+    ran.factors = stepped.factors;
     Ok(ran)
 }
 

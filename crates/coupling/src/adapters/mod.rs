@@ -1,0 +1,10 @@
+//! Bridges that give less than the iteration wants ([`Adapted`], [`Stations`]), and several bridges as one ([`Joined`]).
+
+mod adapted;
+mod joined;
+mod stations;
+mod velocities;
+
+pub use adapted::{Adapted, Lacks};
+pub use joined::Joined;
+pub use stations::{Shape, StationError, Stations};

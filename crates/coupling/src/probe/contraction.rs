@@ -1,0 +1,119 @@
+//! ρ, the contraction of the plain iteration: the largest eigenvalue of −∂G/∂λ, by power iteration with trials.
+//!
+//! ```text
+//! v ← G(λ⁰ + v) − G(λ⁰),    ρ ≈ |v_{k+1}|/|v_k|
+//! ```
+//!
+//! All eigenvalues are real and not negative, so the quotients grow towards ρ. A deck yields most to loads that are alike
+//! everywhere; that is where v begins.
+
+use crate::algebra::norm;
+use crate::error::IterationError;
+use crate::trial::{Sides, Trials};
+
+/// Trials of the power iteration beyond the first.
+const POWER: usize = 3;
+/// Change of a force to see its effect, axle loads: large beside the rounding of any FMU, small beside the contacts'
+/// curvature.
+pub(crate) const CHANGE: f64 = 1e-3;
+
+/// A load that is much alike everywhere, with something of every other shape: multiples of the golden section, modulo 1.
+pub(crate) fn shape(i: usize) -> f64 {
+    0.5 + (i as f64 * 0.618_033_988_749_895).fract()
+}
+
+/// v of the start, and the trial load's size.
+fn begin(trials: &Trials) -> (Vec<f64>, f64) {
+    let n = trials.lambda.len();
+    ((0..n).map(shape).collect(), CHANGE * trials.scale * (n as f64).sqrt())
+}
+
+/// ρ of the step from the saved states, about the forces at hand, and the trials it took. The forces stay.
+pub(crate) fn contraction(trials: &mut Trials, sides: &mut Sides) -> Result<(f64, usize), IterationError> {
+    let (mut v, load) = begin(trials);
+    let at = trials.lambda.clone();
+    trials.run(sides)?;
+    let base = trials.answer.clone();
+    let mut rho = 0.0;
+    for _ in 0..POWER {
+        let size = norm(&v);
+        if !(size > 0.0 && size.is_finite()) {
+            break;
+        }
+        let factor = load / size;
+        trials.lambda.iter_mut().zip(&at).zip(&v).for_each(|((l, t), v)| *l = t + factor * v);
+        trials.run(sides)?;
+        v.iter_mut().zip(&trials.answer).zip(&base).for_each(|((v, g), base)| *v = (g - base) / factor);
+        rho = norm(&v) / size;
+    }
+    trials.lambda = at;
+    Ok((rho, POWER + 1))
+}
+
+/// The same without a step of the bridge itself: by its directional derivatives or by trial instances of it, and by trials
+/// of the train–track side. `None` if the bridge has neither, or refuses them before its first step.
+pub(crate) fn apart(trials: &mut Trials, sides: &mut Sides) -> Result<Option<f64>, IterationError> {
+    let (mut v, load) = begin(trials);
+    let share = trials.exchange.share_of_force(sides.bridge);
+    let mut change = vec![0.0; trials.exchange.now.len()];
+    sides.train_track.save()?;
+    trials.exchange.motion.clone_from(&trials.exchange.now);
+    trials.run_train_track(sides, true)?;
+    let base = trials.answer.clone();
+    // Derivatives are those for inputs as they will be given.
+    trials.exchange.announce(sides, trials.forces.now(), trials.forces.now())?;
+    let (mut rho, mut at_rest) = (None, None);
+    for _ in 0..POWER {
+        let size = norm(&v);
+        if !(size > 0.0 && size.is_finite()) {
+            break;
+        }
+        let factor = load / size;
+        v.iter_mut().for_each(|v| *v *= factor);
+        let known = if sides.bridge.can_derive() {
+            v.iter_mut().for_each(|v| *v *= share);
+            sides.bridge.derivative(&v, &mut change).is_ok()
+        } else {
+            change_apart(trials, sides, &v, &mut at_rest, &mut change)?
+        };
+        if !known {
+            break;
+        }
+        let exchange = &mut trials.exchange;
+        let moved = exchange.motion.iter_mut().zip(&exchange.now).zip(&change);
+        moved.for_each(|((m, now), c)| *m = now + c);
+        sides.train_track.restore()?;
+        trials.run_train_track(sides, true)?;
+        v.iter_mut().zip(&trials.answer).zip(&base).for_each(|((v, g), base)| *v = (g - base) / factor);
+        rho = Some(norm(&v) / size);
+    }
+    sides.train_track.restore()?;
+    Ok(rho)
+}
+
+/// What a change of the forces changes of the motion after a step, seen on trial instances; `at_rest` keeps the motion
+/// without it.
+fn change_apart(
+    trials: &mut Trials,
+    sides: &mut Sides,
+    force: &[f64],
+    at_rest: &mut Option<Vec<f64>>,
+    change: &mut [f64],
+) -> Result<bool, IterationError> {
+    if at_rest.is_none() {
+        *at_rest = step_apart(trials, sides, &vec![0.0; force.len()])?;
+    }
+    let (Some(base), Some(motion)) = (at_rest, step_apart(trials, sides, force)?) else { return Ok(false) };
+    change.iter_mut().zip(&motion).zip(base).for_each(|((c, m), b)| *c = m - *b);
+    Ok(true)
+}
+
+/// The motion after a step of a trial instance under the forces at hand and `force`.
+fn step_apart(trials: &mut Trials, sides: &mut Sides, force: &[f64]) -> Result<Option<Vec<f64>>, IterationError> {
+    let now = trials.forces.now();
+    let Some(mut bridge) = sides.bridge.trial_instance(now)? else { return Ok(None) };
+    let after: Vec<f64> = now.iter().zip(force).map(|(now, force)| now + force).collect();
+    let mut trial = Sides { train_track: &mut *sides.train_track, bridge: &mut *bridge, t: sides.t, h: sides.h };
+    trials.exchange.bridge(&mut trial, now, &after, false)?;
+    Ok(Some(trials.exchange.motion.clone()))
+}
