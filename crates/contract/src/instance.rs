@@ -1,6 +1,7 @@
 //! A model with the life cycle of an FMI 2.0 co-simulation slave: the FMU shell and the in-process run share it, so that
 //! both take exactly the same path through the physics.
 
+use crate::instant;
 use crate::interface::{Causality, Kind};
 use crate::model::{Model, ModelError};
 use crate::values::Values;
@@ -22,20 +23,19 @@ pub struct Instance<M: Model> {
     pub(crate) values: Values,
     pub(crate) phase: Phase,
     pub(crate) start: f64,
+    /// End of the last step, or the start time, s.
+    pub(crate) time: f64,
     /// The parameters the model was last built with; `None` before the first build.
     pub(crate) built: Option<(f64, Vec<f64>)>,
     /// Inputs or parameters changed since the last equilibrium.
     pub(crate) stale: bool,
 }
 
-/// Steps shorter than this, relative to max(1, t), succeed and do nothing (some importers end on one).
-const TINY_STEP: f64 = 1e-12;
-
 impl<M: Model> Instance<M> {
     /// A fresh instance with start values.
     pub fn new(model: M) -> Self {
         let values = Values::start(model.interface());
-        Self { model, values, phase: Phase::Instantiated, start: 0.0, built: None, stale: true }
+        Self { model, values, phase: Phase::Instantiated, start: 0.0, time: 0.0, built: None, stale: true }
     }
     /// The physics.
     pub fn model(&self) -> &M {
@@ -44,6 +44,10 @@ impl<M: Model> Instance<M> {
     /// Where the instance is in its life.
     pub fn phase(&self) -> Phase {
         self.phase
+    }
+    /// End of the last step, before the first one the start time, s.
+    pub fn time(&self) -> f64 {
+        self.time
     }
 
     /// Sets variables by value reference; parameters only before the first step.
@@ -152,7 +156,7 @@ impl<M: Model> Instance<M> {
     /// # Errors
     /// An impossible parameter.
     pub fn enter_initialization(&mut self, start: f64) -> Result<(), ModelError> {
-        self.start = start;
+        (self.start, self.time) = (start, start);
         self.build()?;
         self.phase = Phase::Initialization;
         self.stale = true;
@@ -170,17 +174,34 @@ impl<M: Model> Instance<M> {
         Ok(())
     }
 
-    /// One macro step.
+    /// Whether a step from t to t + h (s) can be asked for at all; nothing changes.
     ///
     /// # Errors
-    /// A step that is negative or not finite, or that the model cannot do.
-    pub fn step(&mut self, t: f64, h: f64) -> Result<(), ModelError> {
+    /// It is negative or not finite, or begins at another time than the end of the last step.
+    pub fn check_step(&self, t: f64, h: f64) -> Result<(), ModelError> {
         if !t.is_finite() || !h.is_finite() || h < 0.0 {
             return Err(ModelError(format!("a step of {h} s from t = {t} s is impossible")));
         }
-        if h >= TINY_STEP * t.abs().max(1.0) {
+        if !instant::follows(self.time, t, h) {
+            return Err(ModelError(format!(
+                "a step from t = {t} s is impossible: the simulation has reached {} s; a step begins where the last one has \
+                 ended, or at the start time, or at the time of a restored state",
+                self.time
+            )));
+        }
+        Ok(())
+    }
+
+    /// One macro step from t, the end of the last one, to t + h (s).
+    ///
+    /// # Errors
+    /// A step that [`Instance::check_step`] refuses, or that the model cannot do.
+    pub fn step(&mut self, t: f64, h: f64) -> Result<(), ModelError> {
+        self.check_step(t, h)?;
+        if !instant::is_nothing(t, h) {
             self.model.step(&mut self.values, t, h)?;
         }
+        self.time = t + h;
         // Derivatives were for this step only.
         self.values.had_rates = std::mem::take(&mut self.values.has_rates);
         Ok(())
@@ -190,7 +211,7 @@ impl<M: Model> Instance<M> {
     pub fn reset(&mut self) {
         self.values = Values::start(self.model.interface());
         self.phase = Phase::Instantiated;
-        self.start = 0.0;
+        (self.start, self.time) = (0.0, 0.0);
         self.stale = true;
         // Built data are kept: the next build compares parameters and does nothing when they are the same.
     }

@@ -11,6 +11,7 @@
 pub mod finite;
 pub mod in_process;
 pub mod instance;
+pub mod instant;
 pub mod interface;
 pub mod model;
 pub mod names;

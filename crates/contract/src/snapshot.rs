@@ -5,13 +5,14 @@ use crate::model::{Model, ModelError};
 use crate::values::Values;
 
 /// Mark and version of the bytes.
-const MAGIC: &[u8; 8] = b"ttbstat1";
+const MAGIC: &[u8; 8] = b"ttbstat2";
 
 /// A saved instance: values, phase and, once built, the dynamic state.
 pub struct Snapshot<M: Model> {
     values: Values,
     phase: Phase,
     start: f64,
+    time: f64,
     stale: bool,
     state: Option<M::State>,
 }
@@ -22,6 +23,7 @@ impl<M: Model> Clone for Snapshot<M> {
             values: self.values.clone(),
             phase: self.phase,
             start: self.start,
+            time: self.time,
             stale: self.stale,
             state: self.state.clone(),
         }
@@ -32,7 +34,8 @@ impl<M: Model> Instance<M> {
     /// Saves the instance.
     pub fn save(&self) -> Snapshot<M> {
         let state = self.built.is_some().then(|| self.model.save());
-        Snapshot { values: self.values.clone(), phase: self.phase, start: self.start, stale: self.stale, state }
+        let (values, phase, start, time) = (self.values.clone(), self.phase, self.start, self.time);
+        Snapshot { values, phase, start, time, stale: self.stale, state }
     }
 
     /// Saves into an existing snapshot without allocating.
@@ -40,7 +43,8 @@ impl<M: Model> Instance<M> {
         snapshot.values.all.clone_from(&self.values.all);
         snapshot.values.rates.clone_from(&self.values.rates);
         (snapshot.values.has_rates, snapshot.values.had_rates) = (self.values.has_rates, self.values.had_rates);
-        (snapshot.phase, snapshot.start, snapshot.stale) = (self.phase, self.start, self.stale);
+        (snapshot.phase, snapshot.start, snapshot.time) = (self.phase, self.start, self.time);
+        snapshot.stale = self.stale;
         snapshot.state = self.built.is_some().then(|| self.model.save());
     }
 
@@ -52,7 +56,8 @@ impl<M: Model> Instance<M> {
         self.values.all.clone_from(&snapshot.values.all);
         self.values.rates.clone_from(&snapshot.values.rates);
         (self.values.has_rates, self.values.had_rates) = (snapshot.values.has_rates, snapshot.values.had_rates);
-        (self.phase, self.start, self.stale) = (snapshot.phase, snapshot.start, snapshot.stale);
+        (self.phase, self.start, self.time) = (snapshot.phase, snapshot.start, snapshot.time);
+        self.stale = snapshot.stale;
         if let Some(state) = &snapshot.state {
             self.build()?;
             self.model.restore(state);
@@ -67,7 +72,7 @@ impl<M: Model> Instance<M> {
         let flags = [values.has_rates, values.had_rates, snapshot.stale, snapshot.state.is_some()];
         bytes.push(snapshot.phase as u8);
         bytes.extend(flags.map(u8::from));
-        for x in std::iter::once(&snapshot.start).chain(&values.all).chain(&values.rates) {
+        for x in [snapshot.start, snapshot.time].iter().chain(&values.all).chain(&values.rates) {
             bytes.extend(x.to_le_bytes());
         }
         if let Some(state) = &snapshot.state {
@@ -83,7 +88,7 @@ impl<M: Model> Instance<M> {
     pub fn from_bytes(&mut self, bytes: &[u8]) -> Result<Snapshot<M>, ModelError> {
         let wrong = |what: &str| ModelError(format!("the serialized FMU state cannot be read: {what}"));
         let mut values = Values::start(self.model.interface());
-        let numbers = 1 + values.all.len() + values.rates.len();
+        let numbers = 2 + values.all.len() + values.rates.len();
         let head = MAGIC.len() + 5;
         if bytes.get(..MAGIC.len()) != Some(MAGIC) {
             return Err(wrong("it does not begin with this program's mark and version"));
@@ -96,7 +101,7 @@ impl<M: Model> Instance<M> {
         let mut real =
             real.chunks_exact(8).map(|b| f64::from_le_bytes([b[0], b[1], b[2], b[3], b[4], b[5], b[6], b[7]]));
         let mut next = || real.next().unwrap_or(f64::NAN);
-        let start = next();
+        let (start, time) = (next(), next());
         values.all.iter_mut().for_each(|x| *x = next());
         values.rates.iter_mut().for_each(|x| *x = next());
         (values.has_rates, values.had_rates) = (flags[1] != 0, flags[2] != 0);
@@ -119,6 +124,6 @@ impl<M: Model> Instance<M> {
             }
             Some(read?)
         };
-        Ok(Snapshot { values, phase, start, stale: flags[3] != 0, state })
+        Ok(Snapshot { values, phase, start, time, stale: flags[3] != 0, state })
     }
 }

@@ -106,12 +106,46 @@ fn tiny_steps_succeed_and_do_nothing_and_impossible_ones_fail() {
 }
 
 #[test]
+fn a_step_at_another_time_than_the_end_of_the_last_one_is_refused_with_both_numbers() {
+    let s = Slave::stepping();
+    assert_eq!(s.step(0.01, 0.01), ERROR);
+    assert!(s.log.text().contains("a step from t = 0.01 s is impossible: the simulation has reached 0 s"));
+    s.run(0, 3);
+    let mut state = ptr::null_mut();
+    assert_eq!(s.save(&mut state), OK);
+    let before = s.bits();
+    for t in [0.02, 0.04, 0.0, 0.035, 1e9] {
+        assert_eq!(s.step(t, 0.01), ERROR);
+        assert!(s.log.text().contains(&format!("t = {t} s is impossible: the simulation has reached 0.03 s")));
+    }
+    // None of it was a step, and a restored state brings its time back.
+    assert_eq!(s.bits(), before);
+    s.run(3, 6);
+    assert_eq!((s.restore(state), s.step(0.06, 0.01)), (OK, ERROR));
+    s.run(3, 4);
+    assert_eq!((s.reset(), s.initialize(10.0)), (OK, ()));
+    assert_eq!((s.step(0.04, 0.01), s.step(0.0, 0.01)), (ERROR, OK));
+}
+
+#[test]
+fn times_may_be_added_up_or_multiplied() {
+    let s = Slave::stepping();
+    let (h, mut added) = (1e-3, 0.0);
+    for n in 0..100_000 {
+        let t = if n % 7 == 0 { added } else { f64::from(n) * h };
+        assert_eq!(s.step(t, h), OK, "{n}: {}", s.log.text());
+        added += h;
+    }
+}
+
+#[test]
 fn steps_end_at_the_stop_time_up_to_rounding() {
     let s = Slave::new();
     assert_eq!(unsafe { fmi2::fmi2SetupExperiment(s.c, 0, 0.0, 0.0, 1, -1.0) }, ERROR);
     assert_eq!(unsafe { fmi2::fmi2SetupExperiment(s.c, 0, 0.0, 0.0, 1, 0.3) }, OK);
     assert_eq!(unsafe { fmi2::fmi2EnterInitializationMode(s.c) }, OK);
     assert_eq!(unsafe { fmi2::fmi2ExitInitializationMode(s.c) }, OK);
+    assert_eq!((s.step(0.0, 0.1), s.step(0.1, 0.1)), (OK, OK));
     assert_eq!(s.step(0.1 + 0.1, 0.1), OK); // 0.30000000000000004
     assert_eq!(s.step(0.3, 0.01), ERROR);
     assert!(s.log.text().contains("stop time 0.3 s"));

@@ -56,7 +56,7 @@ pub unsafe fn setup_experiment<M: Model>(
         if !start.is_finite() || stop.is_some_and(|stop| stop.is_nan() || stop < start) {
             return refuse(format!("an experiment from {start} s to {stop:?} s is impossible"));
         }
-        c.progress = Progress { start, stop, time: start, terminated: false };
+        c.progress = Progress { start, stop, terminated: false };
         DONE
     };
     // SAFETY: by contract.
@@ -81,7 +81,6 @@ pub unsafe fn enter_initialization<M: Model>(c: fmi2Component) -> fmi2Status {
 pub unsafe fn exit_initialization<M: Model>(c: fmi2Component) -> fmi2Status {
     let work = |c: &mut Component<M>| {
         c.instance.exit_initialization()?;
-        c.progress.time = c.progress.start;
         c.log.event(&format!("initialized at t = {} s", c.progress.start));
         DONE
     };
@@ -96,7 +95,7 @@ pub unsafe fn exit_initialization<M: Model>(c: fmi2Component) -> fmi2Status {
 pub unsafe fn terminate<M: Model>(c: fmi2Component) -> fmi2Status {
     let work = |c: &mut Component<M>| {
         c.progress.terminated = true;
-        c.log.event(&format!("terminated at t = {} s", c.progress.time));
+        c.log.event(&format!("terminated at t = {} s", c.instance.time()));
         DONE
     };
     // SAFETY: by contract.

@@ -10,8 +10,6 @@ pub struct Progress {
     pub start: f64,
     /// Stop time in s, where the environment defined one.
     pub stop: Option<f64>,
-    /// End of the last successful step in s.
-    pub time: f64,
     /// After `fmi2Terminate`.
     pub terminated: bool,
 }

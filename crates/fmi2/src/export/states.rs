@@ -11,10 +11,10 @@ use crate::types::*;
 use ttb_contract::{Model, ModelError};
 
 /// Mark and version of the serialized form; the total length in bytes (u64) follows, then the GUID.
-const MARK: &[u8; 8] = b"ttbfmu01";
+const MARK: &[u8; 8] = b"ttbfmu02";
 const GUID_LENGTH: usize = 38;
 const HEAD: usize = MARK.len() + 8 + GUID_LENGTH;
-const PROGRESS: usize = 3 * 8 + 2;
+const PROGRESS: usize = 2 * 8 + 2;
 /// A failed step or a panic leaves nothing worth saving.
 const SAVEABLE: u8 = ALIVE | Stage::Terminated as u8;
 
@@ -40,11 +40,11 @@ impl<M: Model> Component<M> {
     }
 
     fn serialize(&self, state: &SavedState<M>) -> Vec<u8> {
-        let Progress { start, stop, time, terminated } = state.progress;
+        let Progress { start, stop, terminated } = state.progress;
         let mut bytes = MARK.to_vec();
         bytes.extend([0; 8]); // the length, known at the end
         bytes.extend(self.guid.as_bytes());
-        for x in [start, stop.unwrap_or(0.0), time] {
+        for x in [start, stop.unwrap_or(0.0)] {
             bytes.extend(x.to_le_bytes());
         }
         bytes.extend([stop.is_some(), terminated].map(u8::from));
@@ -68,8 +68,8 @@ impl<M: Model> Component<M> {
             return wrong("it belongs to an FMU with another GUID");
         }
         let real = |i: usize| f64::from_le_bytes(number(HEAD + 8 * i));
-        let [has_stop, terminated] = [bytes[HEAD + 24] != 0, bytes[HEAD + 25] != 0];
-        let progress = Progress { start: real(0), stop: has_stop.then_some(real(1)), time: real(2), terminated };
+        let [has_stop, terminated] = [bytes[HEAD + 16] != 0, bytes[HEAD + 17] != 0];
+        let progress = Progress { start: real(0), stop: has_stop.then_some(real(1)), terminated };
         let snapshot = self.instance.from_bytes(&bytes[HEAD + PROGRESS..])?;
         Ok(SavedState { snapshot, progress })
     }

@@ -20,9 +20,7 @@ pub unsafe fn do_step<M: Model>(
     _no_set_state_prior: fmi2Boolean,
 ) -> fmi2Status {
     let work = |c: &mut Component<M>| {
-        if !t.is_finite() || !h.is_finite() || h < 0.0 {
-            return refuse(format!("a step of {h} s from t = {t} s is impossible"));
-        }
+        c.instance.check_step(t, h)?;
         if let Some(stop) = c.progress.stop
             && t + h > stop + PAST_STOP * stop.abs().max(1.0)
         {
@@ -34,7 +32,6 @@ pub unsafe fn do_step<M: Model>(
         c.step_failed = true; // until it is done
         c.instance.step(t, h)?;
         c.step_failed = false;
-        c.progress.time = t + h;
         DONE
     };
     // SAFETY: by contract.
@@ -89,7 +86,7 @@ pub unsafe fn get_status<M: Model>(c: fmi2Component, kind: fmi2StatusKind, out: 
 /// # Safety
 /// As [`guard`]; `out` leads to a place for the result.
 pub unsafe fn get_real_status<M: Model>(c: fmi2Component, kind: fmi2StatusKind, out: *mut fmi2Real) -> fmi2Status {
-    let time = |c: &Component<M>| c.progress.time;
+    let time = |c: &Component<M>| c.instance.time();
     // SAFETY: by contract.
     unsafe { answer(c, "fmi2GetRealStatus", (kind, status_kind::LAST_SUCCESSFUL_TIME), out, time) }
 }
