@@ -5,12 +5,17 @@ use std::io::Write;
 use clap::Parser;
 use ttb::cli::{Cli, Command};
 use ttb::commands::{
-    accuracy, build, check, check_scenario, compare, export_ssp, generate, host, inspect, inspect_bridge, run, schema,
+    accuracy, build, check, check_scenario, compare, export_ssp, generate, host, inspect, inspect_bridge, keeper, run,
+    schema,
 };
 use ttb::error::Error;
 use ttb_fmi::leave;
 
 fn main() {
+    // Should this program crash or be killed, somebody must clear up after it.
+    if let Ok(program) = std::env::current_exe() {
+        ttb_fmi::temporary::keeper(program, vec!["keeper".into()]);
+    }
     let code = match execute(Cli::parse().command) {
         Ok(()) => 0,
         Err(error) => {
@@ -37,5 +42,6 @@ fn execute(command: Command) -> Result<(), Error> {
         Command::Generate(arguments) => generate::generate(&arguments),
         Command::Schema { bridge } => schema::schema(bridge),
         Command::Host { preload } => host::host(&preload),
+        Command::Keeper => keeper::keep(),
     }
 }

@@ -11,8 +11,8 @@
 //! once this process is gone: by its own end it learns, not by a message. It is this same program, started with the
 //! arguments given to [`keeper`], in a session of its own and deaf to requests to end. Handlers for crashes were considered
 //! and rejected: FMUs install their own, and they may run on a spoiled heap; so was removing at the next start: nobody may
-//! ever start again. The keeper costs 0.4 ms at the first folder (`cargo test --release -p ttb-fmi -- --nocapture keeper`)
-//! and sleeps until the end; a program without [`keeper`] does without it.
+//! ever start again. The keeper costs 0.6 ms at the first folder (`cargo test --release -p ttb-fmi -- --nocapture keeper`)
+//! and sleeps until the end; a program that names none does without it.
 
 use crate::platform;
 use std::ffi::OsString;

@@ -101,4 +101,7 @@ pub enum Command {
         #[arg(long)]
         preload: Vec<PathBuf>,
     },
+    /// What removes the temporary folders of a program that has ended
+    #[command(hide = true)]
+    Keeper,
 }

@@ -10,6 +10,7 @@ pub mod generate;
 pub mod host;
 pub mod inspect;
 pub mod inspect_bridge;
+pub mod keeper;
 mod progress;
 pub mod run;
 pub mod schema;

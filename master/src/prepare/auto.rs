@@ -10,6 +10,7 @@
 use std::path::Path;
 
 use ttb_contract::finite::{larger, largest};
+use ttb_fmi::temporary::Temporary;
 use ttb_scenario::Checked;
 use ttb_scenario::step::{Excited, Steps};
 
@@ -33,7 +34,7 @@ pub fn choose(checked: &mut Checked, given: &[Given], isolated: &Isolated) -> Re
     if time.step.given().is_some() {
         return Ok(None);
     }
-    let folder = tempfile::tempdir().map_err(Error::io(std::path::Path::new("temporary folder")))?;
+    let folder = Temporary::new("ttb-auto-").map_err(Error::io(std::path::Path::new("temporary folder")))?;
     let built = if given.is_empty() { Some(fmus::bridge(checked, folder.path())?) } else { None };
     let ours: Vec<Given> = built.iter().map(|path| Given { path, map: None }).collect();
     let stage = Stage { bridges: if given.is_empty() { &ours } else { given }, ours: given.is_empty(), isolated };

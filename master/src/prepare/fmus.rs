@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use ttb_bridge::Bridge;
 use ttb_contract::{Model, ModelError};
+use ttb_fmi::temporary::Temporary;
 use ttb_model_description::package::LIBRARY_EXTENSION;
 use ttb_model_description::{About, Contents, pack};
 use ttb_scenario::Checked;
@@ -97,7 +98,7 @@ pub fn bridge(checked: &Checked, folder: &Path) -> Result<PathBuf, Error> {
 
 /// Writes the FMU of a model with its resources, name and content of each.
 fn write<M: Model>(kind: &Kind, model: &M, files: &[(&str, Vec<u8>)], folder: &Path) -> Result<PathBuf, Error> {
-    let resources = tempfile::tempdir().map_err(Error::io(Path::new("temporary folder")))?;
+    let resources = Temporary::new("ttb-build-").map_err(Error::io(Path::new("temporary folder")))?;
     for (name, content) in files {
         let path = resources.path().join(name);
         std::fs::write(&path, content).map_err(Error::io(&path))?;

@@ -4,6 +4,7 @@ use std::path::Path;
 
 use ttb_contract::finite::{larger, smaller};
 use ttb_coupling::IterationError;
+use ttb_fmi::temporary::Temporary;
 use ttb_scenario::Checked;
 use ttb_scenario::step::Steps;
 use ttb_scenario::travel;
@@ -61,7 +62,7 @@ pub fn stretch(checked: &Checked) -> Checked {
 
 /// Runs the stretch; `None` if the iteration does not converge.
 pub fn run(short: &Checked, steps: Steps, stage: &Stage) -> Result<Option<Vec<Seen>>, Error> {
-    let folder = tempfile::tempdir().map_err(Error::io(Path::new("temporary folder")))?;
+    let folder = Temporary::new("ttb-stretch-").map_err(Error::io(Path::new("temporary folder")))?;
     let mut short = short.clone();
     short.set_steps(steps);
     let train_track = fmus::train_track(&short, folder.path())?;

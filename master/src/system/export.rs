@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use ttb_contract::names::mean_force;
 use ttb_fmi::archive::unpack;
 use ttb_fmi::description::{ModelDescription, VariableType};
+use ttb_fmi::temporary::Temporary;
 use ttb_fmi2::import::read_description;
 use ttb_scenario::Checked;
 use ttb_ssp::{
@@ -30,7 +31,7 @@ pub fn export(arguments: &ExportSsp) -> Result<PathBuf, Error> {
         Some(path) => std::fs::read_to_string(path).map_err(Error::io(path))?,
         None => ttb_scenario::default_scenario_text().to_string(),
     };
-    let folder = tempfile::tempdir().map_err(Error::io(Path::new("temporary folder")))?;
+    let folder = Temporary::new("ttb-export-").map_err(Error::io(Path::new("temporary folder")))?;
     let built = fmus::build(&checked, folder.path())?;
     let descriptions = [describe(&built.train_track)?, describe(&built.bridge)?];
     let structure = structure(&checked, &descriptions);

@@ -8,6 +8,8 @@ use std::process::{Child, Command, ExitStatus, Stdio};
 use std::time::{Duration, Instant};
 
 use super::finding::Finding;
+use ttb_fmi::temporary::Temporary;
+
 use crate::error::Error;
 
 /// What a worker left behind.
@@ -27,8 +29,7 @@ const LOOK: Duration = Duration::from_millis(5);
 /// Runs one check on an unpacked FMU; `patience` is how long a single call may take, `preload` the option
 /// for libraries to load first.
 pub fn run(check: &str, folder: &Path, patience: Duration, preload: &[OsString]) -> Result<Verdict, Error> {
-    let place =
-        tempfile::Builder::new().prefix("ttb-check-").tempdir().map_err(Error::io(Path::new("temporary folder")))?;
+    let place = Temporary::new("ttb-check-").map_err(Error::io(Path::new("temporary folder")))?;
     let file = |name: &str| place.path().join(name);
     let cwd = file("empty folder");
     fs::create_dir(&cwd).map_err(Error::io(&cwd))?;
