@@ -171,22 +171,23 @@ fn a_repeated_step_repeats_every_bit() {
     ] {
         let spec = BridgeSpec { damping, modes, ..light(1e-3) };
         let mut bridge = stepping(&spec);
+        let mut t = 0.0;
         for (k, h) in [1e-3, 1e-3, 2.5e-3, 0.4e-3, 1e-3].into_iter().enumerate() {
             let before = bridge.save();
             let (f, rates) = (smooth(0.03 + k as f64 * 1e-3), [0.0, 5e5, -2e5, 1e3, 0.0]);
             let rates = (k % 2 == 0).then_some(&rates[..]);
             drive(&mut bridge, &f, rates);
-            bridge.step(0.0, h).unwrap();
+            bridge.step(t, h).unwrap();
             let first = outputs(&mut bridge);
             let after = bridge.save();
             // Other forces from the same state, which also overwrites buffers; then the first ones again.
             bridge.restore(&before).unwrap();
             drive(&mut bridge, &[1e5; 5], rates);
-            bridge.step(0.0, h).unwrap();
-            bridge.step(0.0, 0.7e-3).unwrap();
+            bridge.step(t, h).unwrap();
+            bridge.step(t + h, 0.7e-3).unwrap();
             bridge.restore(&before).unwrap();
             drive(&mut bridge, &f, rates);
-            bridge.step(0.0, h).unwrap();
+            bridge.step(t, h).unwrap();
             assert_eq!(first, outputs(&mut bridge));
             let again = bridge.save();
             assert_eq!(bridge.to_bytes(&after), bridge.to_bytes(&again));
@@ -197,8 +198,9 @@ fn a_repeated_step_repeats_every_bit() {
             assert_eq!(other.to_bytes(&read), bytes);
             other.restore(&read).unwrap();
             drive(&mut other, &f, rates);
-            other.step(0.0, h).unwrap();
+            other.step(t, h).unwrap();
             assert_eq!(first, outputs(&mut other));
+            t += h;
         }
     }
 }

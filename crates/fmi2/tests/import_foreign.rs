@@ -61,6 +61,7 @@ fn the_first_answer_of_every_failure_names_instance_call_time_and_log() {
         let error = stepping(&fmu, name).do_step(0.5, 0.25, true).unwrap_err().to_string();
         assert_eq!(error, format!("{name}: fmi2DoStep from t = 0.5 s by 0.25 s answered {status}{log}"));
     }
+    std::fs::remove_dir_all(fmu.folder()).unwrap(); // after fmi2Fatal it would stay to the end of a program
     let error = fmu.instantiate("none", false).err().unwrap().to_string();
     assert!(
         error.starts_with("none: fmi2Instantiate gave no instance; it logged: no licence for g in file:///"),
@@ -91,6 +92,24 @@ fn a_failed_step_can_be_undone_and_nothing_else_is_called_before() {
     assert_eq!(out, [0.0; 3]);
 }
 
+/// Linux: whether the code of an FMU unpacked in a folder is in this process.
+fn is_loaded(folder: &std::path::Path) -> bool {
+    std::fs::read_to_string("/proc/self/maps").unwrap().contains(folder.to_str().unwrap())
+}
+
+#[test]
+fn a_library_stays_when_its_last_instance_is_freed_and_its_folder_goes() {
+    let made = foreign(CAPABLE, false);
+    let fmu = ttb_fmi2::import::open(&made.path).unwrap();
+    let folder = fmu.folder().to_path_buf();
+    let mut instance = stepping(&fmu, "thread");
+    instance.do_step(0.0, 0.1, true).unwrap();
+    drop((instance, fmu));
+    // The thread calls the logger again and again, and its code is still there.
+    std::thread::sleep(std::time::Duration::from_millis(50));
+    assert!(is_loaded(&folder) && !folder.exists());
+}
+
 #[test]
 fn after_fmi2fatal_nothing_is_called_any_more() {
     let made = foreign(CAPABLE, false);
@@ -102,6 +121,11 @@ fn after_fmi2fatal_nothing_is_called_any_more() {
     let error = instance.restore(&slot).unwrap_err().to_string();
     assert!(error.contains("fmi2Fatal before and must not be called"), "{error}");
     assert!(instance.reset().is_err());
+    // Its threads may still run: what they use stays.
+    let folder = fmu.folder().to_path_buf();
+    drop((instance, fmu));
+    assert!(folder.join("binaries/linux64/Foreign.so").exists() && is_loaded(&folder));
+    std::fs::remove_dir_all(folder).unwrap();
 }
 
 #[test]

@@ -111,6 +111,8 @@ fn every_call_answers_as_in_this_process() {
     for (here, apart) in answers[0].iter().zip(&answers[1]) {
         assert_eq!(here, apart);
     }
+    // After fmi2Fatal it would stay to the end of a program.
+    std::fs::remove_dir_all(here.folder()).unwrap();
 }
 
 #[test]

@@ -5,6 +5,7 @@
 #include <string.h>
 #include <math.h>
 #include <unistd.h>
+#include <pthread.h>
 
 #ifndef N
 #define N 3
@@ -68,6 +69,12 @@ int fmi2SetReal(void *c, const unsigned *vr, size_t n, const double *values) {
     }
     return 0;
 }
+/* Goes on after the instance is freed: a faulty FMU. */
+static void *chatter(void *callbacks) {
+    const callbacks_t *cb = callbacks;
+    for (;;) { cb->logger(cb->environment, "thread", 0, "info", "still here"); usleep(1000); }
+    return NULL;
+}
 int fmi2DoStep(void *c, double t, double h, int no_restore) {
     instance_t *s = c;
     const callbacks_t *cb = s->callbacks;
@@ -82,6 +89,7 @@ int fmi2DoStep(void *c, double t, double h, int no_restore) {
     if (t >= 0.2 && is(s, "spin")) for (volatile int i = 0;; i++) ;
     if (is(s, "print")) { printf("step to %g\n", t + h); fflush(stdout); fprintf(stderr, "no newline"); }
     if (is(s, "flood")) for (int i = 0; i < 20000; i++) printf("line %d of many\n", i);
+    if (is(s, "thread")) { pthread_t thread; pthread_create(&thread, NULL, chatter, (void *)cb); pthread_detach(thread); }
     if (is(s, "parent") && fork() == 0) for (;;) pause();
     if (is(s, "error")) { s->out[0] += 1e9; cb->logger(cb->environment, s->name, 3, "bad", "cannot step by %g", h); return 3; }
     if (is(s, "discard")) return 2;
