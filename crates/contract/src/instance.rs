@@ -2,7 +2,7 @@
 //! both take exactly the same path through the physics.
 
 use crate::instant;
-use crate::interface::{Causality, Kind};
+use crate::interface::Causality;
 use crate::model::{Model, ModelError};
 use crate::values::Values;
 
@@ -81,13 +81,11 @@ impl<M: Model> Instance<M> {
         if self.phase == Phase::Stepping {
             return Err(ModelError(format!("parameter {name} can only be set before the end of initialization")));
         }
-        let allowed = match &variable.kind {
-            Kind::Real { .. } => value.is_finite(),
-            Kind::Boolean => value == 0.0 || value == 1.0,
-            Kind::Integer { min, max } => (f64::from(*min)..=f64::from(*max)).contains(&value),
-            Kind::Enumeration(items) => (1.0..=items.len() as f64).contains(&value),
-        };
-        if allowed { Ok(()) } else { Err(ModelError(format!("parameter {name} cannot be {value}"))) }
+        if variable.kind.allows(value) {
+            Ok(())
+        } else {
+            Err(ModelError(format!("parameter {name} cannot be {value}")))
+        }
     }
 
     /// Sets first time derivatives of inputs for the coming step.
@@ -130,10 +128,15 @@ impl<M: Model> Instance<M> {
         Ok(())
     }
 
+    /// Whether the model was last built for these parameters and this start.
+    pub(crate) fn is_built_for(&self, values: &Values, start: f64) -> bool {
+        let parameters = &values.all[self.model.interface().parameters()];
+        self.built.as_ref().is_some_and(|(of, built)| *of == start && built == parameters)
+    }
+
     pub(crate) fn build(&mut self) -> Result<(), ModelError> {
-        let parameters = &self.values.all[self.model.interface().parameters()];
-        if self.built.as_ref().is_none_or(|(start, built)| *start != self.start || built != parameters) {
-            let parameters = parameters.to_vec();
+        if !self.is_built_for(&self.values, self.start) {
+            let parameters = self.values.all[self.model.interface().parameters()].to_vec();
             // A build that fails leaves a half-built model behind: the next one must not take it for whole.
             self.built = None;
             self.model.build(&self.values, self.start)?;

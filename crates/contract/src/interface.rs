@@ -32,6 +32,19 @@ pub enum Kind {
     Enumeration(&'static [(&'static str, &'static str)]),
 }
 
+impl Kind {
+    /// Whether a variable of this kind can have a value.
+    pub fn allows(&self, value: f64) -> bool {
+        let whole_from = |least: f64, most: f64| (least..=most).contains(&value) && value.fract() == 0.0;
+        match self {
+            Self::Real { .. } => value.is_finite(),
+            Self::Boolean => value == 0.0 || value == 1.0,
+            Self::Integer { min, max } => whole_from(f64::from(*min), f64::from(*max)),
+            Self::Enumeration(items) => whole_from(1.0, items.len() as f64),
+        }
+    }
+}
+
 /// One scalar variable. Its value reference is its position in the [`Interface`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct Variable {
