@@ -24,9 +24,10 @@ use ttb_sparse::modes::Modes;
 use ttb_sparse::vector::{add_scaled, dot};
 use ttb_sparse::{Factor, FactorError};
 
+use crate::law::Law;
 use crate::lazy::Lazy;
 use crate::rows::Rows;
-use crate::system::{Base, Law, Step, System, Work};
+use crate::system::{Base, Step, System, Work};
 
 /// K₀, M₀, C₀, and the modes that modal damping needs.
 #[derive(Debug)]

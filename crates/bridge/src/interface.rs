@@ -3,6 +3,7 @@
 use ttb_contract::{Interface, Variable};
 use ttb_scenario::spec::BridgeSpec;
 
+use crate::law::ratio;
 use crate::structure::Structure;
 
 /// Values of the parameters, in the order of their group.
@@ -55,7 +56,7 @@ pub fn list(spec: &BridgeSpec, structure: &Structure) -> Interface {
         }
     }
     let parameters = vec![
-        Variable::parameter("damping_ratio", "1", structure.damping_ratio(), "Damping ratio, from 0 to 1"),
+        Variable::parameter("damping_ratio", "1", ratio(&spec.damping), "Damping ratio, from 0 to 1"),
         Variable::parameter("stiffness_factor", "1", 1.0, "Factor on all stiffness, positive"),
         Variable::parameter("mass_factor", "1", 1.0, "Factor on all mass, positive"),
         Variable::parameter("step_size", "s", spec.step, "Step that is factorised for; longer steps are divided"),

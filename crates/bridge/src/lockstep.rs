@@ -17,9 +17,9 @@ use ttb_sparse::Factor;
 use ttb_sparse::sweeps::{LANES, Which};
 use ttb_sparse::{Pencil, Product};
 
+use crate::law::Law;
 use crate::lazy::Lazy;
 use crate::rows::Rows;
-use crate::system::Law;
 
 /// Groups of runs: L is read once for all, and once more from near for each.
 const GROUPS: usize = 2;

@@ -16,10 +16,12 @@ use ttb_contract::ModelError;
 use ttb_dynamics::newmark::Motion;
 use ttb_dynamics::pool::Pool;
 
+use crate::law::Law;
+use crate::prepared::Prepared;
 use crate::state::{Data, Pending, State};
 use crate::steps::Steps;
 use crate::structure::Structure;
-use crate::system::{Base, Law, Step, Work};
+use crate::system::{Base, Step, Work};
 
 /// More sub-steps than this in one macro step are a mistake.
 const MOST_SUBSTEPS: usize = 1_000_000;
@@ -79,12 +81,13 @@ impl March {
     /// Changes law, nominal step and Newmark parameters, and factorises for the nominal step.
     ///
     /// # Errors
-    /// K̂ is not positive definite.
-    pub fn set(&mut self, structure: &Structure, law: Law, [nominal, gamma, beta]: [f64; 3]) -> Result<(), ModelError> {
-        self.law = law;
+    /// K̂ is not positive definite; everything is then as before.
+    pub fn set(&mut self, prepared: &Prepared, law: Law, [nominal, gamma, beta]: [f64; 3]) -> Result<(), ModelError> {
+        let mut steps = Steps::new(nominal, gamma, beta);
+        steps.get(nominal, prepared, &law)?;
+        (self.law, self.steps) = (law, steps);
         self.kept.clear();
-        self.steps.set(nominal, gamma, beta);
-        self.steps.get(nominal, structure, &self.law).map(|_| ())
+        Ok(())
     }
 
     /// The base of a step of `size` from `state`.
@@ -120,7 +123,7 @@ impl March {
     /// Far too many sub-steps, or a new size cannot be factorised.
     pub fn run(
         &mut self,
-        structure: &Structure,
+        prepared: &Prepared,
         old: &State,
         forces: Forces,
         h: f64,
@@ -133,7 +136,8 @@ impl March {
                 "a step of {h} s holds more than {MOST_SUBSTEPS} sub-steps of step_size = {nominal} s"
             )));
         }
-        let step = self.steps.get(size, structure, &self.law)?;
+        let structure = &prepared.structure;
+        let step = self.steps.get(size, prepared, &self.law)?;
         new.force.clone_from(&old.force);
         new.pending = None;
         let mut base = self.base(&step, old, size);

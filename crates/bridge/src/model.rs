@@ -9,7 +9,9 @@ use ttb_dynamics::pool::Pool;
 use ttb_scenario::spec::{BridgeSpec, StructureSpec};
 
 use crate::interface::{self, Parameters};
+use crate::law::ratio;
 use crate::march::{Forces, March, Seen};
+use crate::prepared::Prepared;
 use crate::reduction::Accuracy;
 use crate::state::{Data, State};
 use crate::stored;
@@ -21,7 +23,7 @@ const RESOURCE: &str = "bridge.json";
 /// A bridge.
 pub struct Bridge {
     interface: Interface,
-    structure: Structure,
+    prepared: Arc<Prepared>,
     experiment: (f64, f64),
     parameters: Option<Parameters>,
     march: March,
@@ -48,18 +50,32 @@ impl Bridge {
     /// # Errors
     /// Anything in the specification that cannot be: the message names it.
     pub fn new(spec: BridgeSpec) -> Result<Self, ModelError> {
-        Self::from_folder(spec, Path::new(""))
+        Self::from_prepared(&Prepared::new(&spec)?)
     }
 
-    /// As [`Bridge::new`], with what the specification leaves to a file in `folder`.
-    fn from_folder(spec: BridgeSpec, folder: &Path) -> Result<Self, ModelError> {
-        let structure = Structure::new(&spec, folder)?;
+    /// A bridge over what is prepared already, with the step, end and damping that it was prepared with.
+    ///
+    /// # Errors
+    /// The damping cannot be.
+    pub fn from_prepared(prepared: &Arc<Prepared>) -> Result<Self, ModelError> {
+        Self::over(prepared, prepared.spec())
+    }
+
+    /// A bridge over what is prepared already, with another step, end, damping ratio or Newmark's method.
+    ///
+    /// # Errors
+    /// The specification differs in more than that ([`Prepared::serves`]); the damping cannot be.
+    pub fn over(prepared: &Arc<Prepared>, spec: &BridgeSpec) -> Result<Self, ModelError> {
+        if !prepared.serves(spec) {
+            return Err(ModelError("bridge: it was prepared for another structure".into()));
+        }
+        let structure = &prepared.structure;
         let (unknowns, supports) = (structure.system.unknowns(), structure.supports);
-        let law = structure.law(structure.damping_ratio(), 1.0, 1.0)?;
+        let law = structure.law(ratio(&spec.damping), 1.0, 1.0)?;
         let rest = Arc::new(Data::rest(unknowns, supports));
         Ok(Self {
-            interface: interface::list(&spec, &structure),
-            structure,
+            interface: interface::list(spec, structure),
+            prepared: Arc::clone(prepared),
             experiment: (spec.step, spec.end),
             parameters: None,
             march: March::new(law),
@@ -70,14 +86,23 @@ impl Bridge {
         })
     }
 
+    /// What it shares with other bridges.
+    pub fn prepared(&self) -> &Arc<Prepared> {
+        &self.prepared
+    }
+
+    fn structure(&self) -> &Structure {
+        &self.prepared.structure
+    }
+
     /// Degrees of freedom of the finite-element model.
     pub fn ndof(&self) -> usize {
-        self.structure.ndof
+        self.prepared.structure.ndof
     }
 
     /// Unknowns solved for: degrees of freedom, or modes.
     pub fn unknowns(&self) -> usize {
-        self.structure.system.unknowns()
+        self.prepared.structure.system.unknowns()
     }
 
     /// The files that an FMU of this bridge needs: name and content.
@@ -89,7 +114,7 @@ impl Bridge {
             let text = serde_json::to_vec(spec).map_err(|e| ModelError(format!("{RESOURCE} cannot be made: {e}")))?;
             Ok((RESOURCE, text))
         };
-        Ok(match self.structure.to_store() {
+        Ok(match self.prepared.structure.to_store() {
             None => vec![text(spec)?],
             Some(stored) => {
                 let spec = BridgeSpec { structure: StructureSpec::Stored, ..spec.clone() };
@@ -100,12 +125,12 @@ impl Bridge {
 
     /// How wrong a reduced model is.
     pub fn accuracy(&self) -> Option<&Accuracy> {
-        self.structure.accuracy.as_ref()
+        self.prepared.structure.accuracy.as_ref()
     }
 
     /// Total mass under the parameters in force, kg.
     pub fn mass(&self) -> f64 {
-        self.structure.mass * self.march.law().mass
+        self.prepared.structure.mass * self.march.law().mass
     }
 
     /// The lowest natural frequencies under the parameters in force, Hz.
@@ -115,19 +140,19 @@ impl Bridge {
     pub fn natural_frequencies(&self, count: usize) -> Result<Vec<f64>, ModelError> {
         let law = self.march.law();
         let factor = (law.stiffness / law.mass).sqrt();
-        Ok(self.structure.natural_frequencies(count)?.into_iter().map(|f| factor * f).collect())
+        Ok(self.prepared.structure.natural_frequencies(count)?.into_iter().map(|f| factor * f).collect())
     }
 
     /// A buffer for the next state, and its only holder.
     fn buffer(&mut self) -> State {
-        let (unknowns, supports) = (self.unknowns(), self.structure.supports);
+        let (unknowns, supports) = (self.unknowns(), self.prepared.structure.supports);
         self.pool.take(|| Data::rest(unknowns, supports))
     }
 
     /// Writes all outputs of what the march saw last.
     fn read_out(&self, acceleration: Acceleration, values: &mut Values) {
         let outputs = &mut values.all[self.interface.outputs()];
-        read_out(&self.structure, self.march.law().stiffness, &self.march.seen, acceleration, outputs);
+        read_out(&self.prepared.structure, self.march.law().stiffness, &self.march.seen, acceleration, outputs);
     }
 
     /// Takes a written buffer as the state and gives the old one back.
@@ -176,9 +201,9 @@ impl Model for Bridge {
         let path = resources.join(RESOURCE);
         let text =
             std::fs::read_to_string(&path).map_err(|e| ModelError(format!("cannot read {}: {e}", path.display())))?;
-        let spec =
+        let spec: BridgeSpec =
             serde_json::from_str(&text).map_err(|e| ModelError(format!("{} is damaged: {e}", path.display())))?;
-        Self::from_folder(spec, resources)
+        Self::from_prepared(&Prepared::from_folder(&spec, resources)?)
     }
 
     fn interface(&self) -> &Interface {
@@ -200,8 +225,8 @@ impl Model for Bridge {
             return Err(ModelError(problem));
         }
         let Parameters { damping_ratio, stiffness_factor, mass_factor, step_size, gamma, beta } = parameters;
-        let law = self.structure.law(damping_ratio, stiffness_factor, mass_factor)?;
-        self.march.set(&self.structure, law, [step_size, gamma, beta])?;
+        let law = self.structure().law(damping_ratio, stiffness_factor, mass_factor)?;
+        self.march.set(&self.prepared, law, [step_size, gamma, beta])?;
         self.parameters = Some(parameters);
         Ok(())
     }
@@ -211,16 +236,16 @@ impl Model for Bridge {
         let data = only_holder(&mut state)?;
         data.force.copy_from_slice(&values.all[self.interface.inputs()]);
         data.pending = None;
-        let unknowns = self.structure.system.unknowns();
+        let unknowns = self.prepared.structure.system.unknowns();
         let Motion { u, v, a } = &mut data.motion;
         for x in [&mut *u, v, a] {
             x.clear();
             x.resize(unknowns, 0.0);
         }
-        self.structure.rows.add_transposed(&data.force, u);
-        let solved = self.structure.system.statics(self.march.law(), u);
+        self.prepared.structure.rows.add_transposed(&data.force, u);
+        let solved = self.prepared.structure.system.statics(self.march.law(), u);
         solved.map_err(|e| ModelError(format!("bridge: {e}")))?;
-        self.march.seen.read(&self.structure, &data.motion);
+        self.march.seen.read(&self.prepared.structure, &data.motion);
         self.read_out(Acceleration::State, values);
         self.accept(state);
         self.last_step = self.march.steps.nominal();
@@ -229,7 +254,7 @@ impl Model for Bridge {
 
     fn start(&mut self, _values: &mut Values) -> Result<(), ModelError> {
         // The state is static equilibrium already: no velocity, no acceleration, f_n the inputs.
-        self.structure.system.rest_statics();
+        self.prepared.structure.system.rest_statics();
         Ok(())
     }
 
@@ -238,7 +263,7 @@ impl Model for Bridge {
         let rates = values.has_rates.then_some(&values.rates[..]);
         let mut state = self.buffer();
         let data = only_holder(&mut state)?;
-        self.march.run(&self.structure, &self.state, Forces { values: &values.all[inputs], rates }, h, data)?;
+        self.march.run(&self.prepared, &self.state, Forces { values: &values.all[inputs], rates }, h, data)?;
         self.read_out(if values.has_rates { Acceleration::State } else { Acceleration::Mean(h) }, values);
         self.accept(state);
         self.last_step = h;
@@ -258,7 +283,7 @@ impl Model for Bridge {
     }
 
     fn read_state(&self, bytes: &[u8]) -> Result<State, ModelError> {
-        Data::read(self.unknowns(), self.structure.supports, bytes).map(Arc::new)
+        Data::read(self.unknowns(), self.prepared.structure.supports, bytes).map(Arc::new)
     }
 
     /// The step is linear: the outputs' change is the step itself, from rest, with the seed as input. With interpolated
@@ -268,9 +293,9 @@ impl Model for Bridge {
         let data = only_holder(&mut state)?;
         let constant = vec![0.0; seed.len()];
         let forces = Forces { values: seed, rates: has_rates.then_some(&constant[..]) };
-        self.march.run(&self.structure, &self.rest, forces, h, data)?;
+        self.march.run(&self.prepared, &self.rest, forces, h, data)?;
         let acceleration = if has_rates { Acceleration::State } else { Acceleration::Mean(h) };
-        read_out(&self.structure, self.march.law().stiffness, &self.march.seen, acceleration, out);
+        read_out(&self.prepared.structure, self.march.law().stiffness, &self.march.seen, acceleration, out);
         self.pool.give(&state);
         Ok(())
     }

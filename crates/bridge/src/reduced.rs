@@ -13,8 +13,9 @@ use ttb_dynamics::dense::Dense;
 use ttb_dynamics::newmark::{Motion, Newmark};
 use ttb_sparse::FactorError;
 
+use crate::law::Law;
 use crate::rows::Rows;
-use crate::system::{Base, Law, Step, System, Work};
+use crate::system::{Base, Step, System, Work};
 
 /// The coordinates' ω² under K₀ and M₀, (rad/s)²; the shapes live in the rows that lead in and out.
 #[derive(Debug)]

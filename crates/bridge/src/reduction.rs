@@ -22,9 +22,10 @@ use ttb_sparse::{Factor, FactorError};
 
 use crate::deck::Row;
 use crate::full::Full;
+use crate::law::Law;
 use crate::reduced::Reduced;
 use crate::rows::Rows;
-use crate::system::{Base, Law, Step, System, Work};
+use crate::system::{Base, Step, System, Work};
 
 /// First highest frequency that is tried, Hz, and the factor to the next.
 const FIRST: f64 = 30.0;

@@ -55,7 +55,7 @@ impl Data {
     /// Reads what [`Data::write`] wrote.
     ///
     /// # Errors
-    /// The length does not fit.
+    /// The length does not fit; a number is not finite.
     pub fn read(unknowns: usize, supports: usize, bytes: &[u8]) -> Result<Self, ModelError> {
         let mut data = Self::rest(unknowns, supports);
         let expected = 8 * (3 * unknowns + supports);
@@ -68,6 +68,9 @@ impl Data {
         let numbers =
             bytes.chunks_exact(8).map(|b| f64::from_le_bytes([b[0], b[1], b[2], b[3], b[4], b[5], b[6], b[7]]));
         data.motion.numbers_mut().chain(&mut data.force).zip(numbers).for_each(|(x, number)| *x = number);
+        if !data.motion.numbers().chain(&data.force).all(|x| x.is_finite()) {
+            return Err(ModelError("the bridge's state holds a number that is none".into()));
+        }
         Ok(data)
     }
 }

@@ -5,15 +5,16 @@ use std::sync::Arc;
 use ttb_contract::ModelError;
 use ttb_dynamics::newmark::Newmark;
 
-use crate::structure::Structure;
-use crate::system::{Law, Step};
+use crate::law::Law;
+use crate::prepared::Prepared;
+use crate::system::Step;
 
 /// Step sizes within this relative distance are the same.
 const SAME: f64 = 1e-9;
 /// Factorised sizes kept.
 const KEPT: usize = 4;
 
-/// The nominal step, how a macro step divides, and the factorised sizes, the last used first.
+/// The nominal step, how a macro step divides, and the factorised sizes in use, the last used first.
 #[derive(Default)]
 pub struct Steps {
     /// s.
@@ -24,9 +25,9 @@ pub struct Steps {
 }
 
 impl Steps {
-    /// Forgets all factors and takes a new nominal step (s) and Newmark parameters.
-    pub fn set(&mut self, nominal: f64, gamma: f64, beta: f64) {
-        *self = Self { nominal, gamma, beta, known: Vec::with_capacity(KEPT) };
+    /// A nominal step (s) and Newmark parameters; nothing is factorised yet.
+    pub fn new(nominal: f64, gamma: f64, beta: f64) -> Self {
+        Self { nominal, gamma, beta, known: Vec::with_capacity(KEPT) }
     }
 
     /// The nominal step, s.
@@ -49,15 +50,12 @@ impl Steps {
     /// The factorised step of a size from [`Steps::divide`].
     ///
     /// # Errors
-    /// A size so small that K̂ overflows: K and M themselves have passed before.
-    pub fn get(&mut self, size: f64, structure: &Structure, law: &Law) -> Result<Arc<dyn Step>, ModelError> {
+    /// As [`Prepared::step`].
+    pub fn get(&mut self, size: f64, prepared: &Prepared, law: &Law) -> Result<Arc<dyn Step>, ModelError> {
         if let Some(position) = self.known.iter().position(|(known, _)| *known == size) {
             self.known[..=position].rotate_right(1);
         } else {
-            let newmark = Newmark::new(self.gamma, self.beta, size);
-            let Structure { system, rows, supports, .. } = structure;
-            let step = Arc::clone(system).prepare(law, newmark, rows, *supports);
-            let step = step.map_err(|e| ModelError(format!("bridge: a step of {size} s cannot be factorised: {e}")))?;
+            let step = prepared.step(law, Newmark::new(self.gamma, self.beta, size))?;
             self.known.truncate(KEPT - 1);
             self.known.insert(0, (size, step));
         }
@@ -77,8 +75,7 @@ mod tests {
 
     #[test]
     fn sizes_snap_and_divide() {
-        let mut steps = Steps::default();
-        steps.set(0.1, 0.5, 0.25);
+        let steps = Steps::new(0.1, 0.5, 0.25);
         assert_eq!(steps.divide(0.1 + 0.2 - 0.2), (1, 0.1));
         assert_eq!(steps.divide(0.1 + 0.2), (3, 0.1));
         assert_eq!(steps.divide(0.099_999_999_999_999_85), (1, 0.1));

@@ -4,22 +4,19 @@ use std::path::Path;
 use std::sync::Arc;
 
 use ttb_contract::ModelError;
-use ttb_dynamics::damping::rayleigh;
-use ttb_dynamics::newmark::Newmark;
 use ttb_scenario::spec::{BridgeSpec, StructureSpec};
-use ttb_scenario::types::{Damping, RayleighAt};
-use ttb_sparse::Pencil;
+use ttb_scenario::types::Damping;
 use ttb_sparse::modes::{Modes, lowest};
-use ttb_sparse::{Factor, FactorError, Layout};
+use ttb_sparse::{FactorError, Layout, Pencil};
 
 use crate::assembled::{Assembled, Monitor, Names};
 use crate::deck::Row;
-use crate::full::Full;
-use crate::reduced::Reduced;
-use crate::reduction::{self, Accuracy, Built};
+use crate::law::{Law, law, modes_needed};
+use crate::reduction::Accuracy;
 use crate::rows::Rows;
+use crate::solver::Solver;
 use crate::stored::{Restored, Source, Stored};
-use crate::system::{Law, System};
+use crate::system::System;
 use crate::{imported, plane, space};
 
 /// The structure.
@@ -111,11 +108,6 @@ impl Structure {
         Some(Stored::new(source, &self.rows, numbers, self.mass, &self.omega2, &self.points, accuracy))
     }
 
-    /// The damping ratio of the specification.
-    pub fn damping_ratio(&self) -> f64 {
-        ratio(&self.damping)
-    }
-
     /// Stiffness, mass and damping for a ratio and factors; see [`law`].
     ///
     /// # Errors
@@ -135,89 +127,6 @@ impl Structure {
         let modes = lowest(pencil, &statics, count).map_err(in_bridge)?;
         Ok(modes.frequencies().collect())
     }
-}
-
-/// How a structure is solved.
-struct Solver {
-    system: Arc<dyn System>,
-    rows: Rows,
-    accuracy: Option<Accuracy>,
-    source: Option<Source>,
-}
-
-impl Solver {
-    /// All degrees of freedom, the lowest modes, or a reduced model; `rows` are those of supports and monitors.
-    fn new(
-        spec: &BridgeSpec,
-        pencil: Arc<Pencil>,
-        statics: Arc<Factor>,
-        mut modes: Modes,
-        rows: &[Row],
-    ) -> Result<Self, ModelError> {
-        // Plane models and lowest modes are made anew from their few numbers.
-        let small = matches!(spec.structure, StructureSpec::Beams { .. } | StructureSpec::Frame(_));
-        if let Some(wish) = &spec.reduction {
-            let law = law(&spec.damping, &modes.omega2, ratio(&spec.damping), 1.0, 1.0)?;
-            let newmark = Newmark::new(spec.newmark.gamma, spec.newmark.beta, spec.step);
-            let Built { system, rows, accuracy } =
-                reduction::build(&pencil, &statics, &law, newmark, rows, &spec.supports, wish)?;
-            let source = Some(Source::Reduced { omega2: system.omega2().to_vec() });
-            return Ok(Self { system: Arc::new(system), rows, accuracy: Some(accuracy), source });
-        }
-        let rows = Rows::new(rows);
-        if let Some(count) = spec.modes {
-            modes.shapes.truncate(count);
-            modes.omega2.truncate(count);
-            let source = (!small).then(|| Source::Reduced { omega2: modes.omega2.clone() });
-            let rows = rows.project(&modes.shapes);
-            return Ok(Self { system: Arc::new(Reduced::new(modes.omega2)), rows, accuracy: None, source });
-        }
-        let damped = if matches!(spec.damping, Damping::Modal { .. }) { modes } else { Modes::default() };
-        let shapes = damped.shapes.clone();
-        let source = (!small).then(|| Source::Full { pencil: Arc::clone(&pencil), shapes });
-        Ok(Self { system: Arc::new(Full::new(pencil, Some(statics), damped)), rows, accuracy: None, source })
-    }
-}
-
-/// ζ of a specification.
-fn ratio(damping: &Damping) -> f64 {
-    match damping {
-        Damping::None => 0.0,
-        Damping::Rayleigh { ratio, .. } | Damping::Modal { ratio, .. } => *ratio,
-    }
-}
-
-/// Stiffness, mass and damping for a ratio and factors; `omega2` are the ω² of as many modes as [`modes_needed`] says,
-/// without factors.
-///
-/// # Errors
-/// A ratio on a bridge without damping, or frequencies that are not positive.
-pub fn law(damping: &Damping, omega2: &[f64], ratio: f64, stiffness: f64, mass: f64) -> Result<Law, ModelError> {
-    let omega: Vec<f64> = omega2.iter().map(|w2| (w2 * stiffness / mass).sqrt()).collect();
-    let mode = |number: usize| {
-        let omega = number.checked_sub(1).and_then(|j| omega.get(j)).copied();
-        omega.ok_or_else(|| ModelError(format!("bridge: Rayleigh damping at mode {number}; modes are counted from 1")))
-    };
-    let (mut alpha, mut beta, mut rates) = (0.0, 0.0, Vec::new());
-    match damping {
-        Damping::None if ratio != 0.0 => {
-            return Err(ModelError(format!("damping_ratio is {ratio}; on a bridge of damping type none it must be 0")));
-        }
-        Damping::None => {}
-        Damping::Rayleigh { at, .. } => {
-            let pair = match at {
-                RayleighAt::Hz(pair) => pair.map(|hz| std::f64::consts::TAU * hz),
-                RayleighAt::Modes([i, j]) => [mode(*i)?, mode(*j)?],
-                RayleighAt::FirstTimes(multiple) => [mode(1)?, multiple * mode(1)?],
-            };
-            if !pair.iter().all(|omega| *omega > 0.0 && omega.is_finite()) {
-                return Err(ModelError("bridge: the two frequencies of Rayleigh damping must be positive".into()));
-            }
-            (alpha, beta) = rayleigh(ratio, pair);
-        }
-        Damping::Modal { modes, .. } => rates = omega.iter().take(*modes).map(|omega| 2.0 * ratio * omega).collect(),
-    }
-    Ok(Law { stiffness, mass, alpha, beta, rates })
 }
 
 /// The supports' degrees of freedom, if eliminating them last adds little to the factor.
@@ -241,15 +150,4 @@ fn explain(names: &Names, error: FactorError) -> ModelError {
         }
         other @ FactorError::Symbolic(_) => in_bridge(other),
     }
-}
-
-/// How many modes are needed: by the damping, and as coordinates if there are to be so many.
-pub fn modes_needed(damping: &Damping, coordinates: Option<usize>) -> usize {
-    let damping = match damping {
-        Damping::Rayleigh { at: RayleighAt::Modes(pair), .. } => pair[0].max(pair[1]),
-        Damping::Rayleigh { at: RayleighAt::FirstTimes(_), .. } => 1,
-        Damping::Modal { modes, .. } if coordinates.is_none() => *modes,
-        _ => 0,
-    };
-    damping.max(coordinates.unwrap_or(0))
 }

@@ -22,37 +22,8 @@ use ttb_dynamics::dense::Dense;
 use ttb_dynamics::newmark::{Motion, Newmark};
 use ttb_sparse::FactorError;
 
+use crate::law::Law;
 use crate::rows::Rows;
-
-/// Stiffness, mass and damping under the parameters in force.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Law {
-    /// k.
-    pub stiffness: f64,
-    /// m.
-    pub mass: f64,
-    /// α, 1/s.
-    pub alpha: f64,
-    /// β, s.
-    pub beta: f64,
-    /// 2ζω of the lowest modes, 1/s; empty without modal damping.
-    pub rates: Vec<f64>,
-}
-
-impl Law {
-    /// c_K = k(1 + a₁β) and c_M = m(a₀ + a₁α): K̂ = c_K K₀ + c_M M₀ + a₁C₀.
-    pub fn effective(&self, newmark: &Newmark) -> [f64; 2] {
-        let [a0, a1, ..] = newmark.a;
-        [self.stiffness * (1.0 + a1 * self.beta), self.mass * (a0 + a1 * self.alpha)]
-    }
-
-    /// α′, γ′ and kβ/c_K of [`crate::full`], with which a step's right-hand side needs no product with K₀.
-    pub fn history(&self, newmark: &Newmark) -> [f64; 3] {
-        let [c_k, c_m] = self.effective(newmark);
-        let share = self.stiffness * self.beta / c_k;
-        [self.alpha - c_m / self.mass * share, 1.0 - newmark.a[1] * share, share]
-    }
-}
 
 /// What a step owes to the state it starts from. Vectors that a system does not need stay empty.
 #[derive(Clone, Debug, Default)]

@@ -4,42 +4,22 @@ mod common;
 
 use std::sync::Arc;
 
-use common::{Train, drive, outputs, stepping};
+use common::{GIRDER, Train, drive, girder, girder_spec as spec, girder_stations as stations, outputs, stepping};
 use ttb_bridge::Bridge;
 use ttb_bridge::full::Full;
+use ttb_bridge::law::Law;
 use ttb_bridge::lockstep::{Lockstep, RUNS};
 use ttb_bridge::rows::Rows;
 use ttb_bridge::space;
-use ttb_bridge::system::{Base, Law, System, Work};
+use ttb_bridge::system::{Base, System, Work};
 use ttb_contract::{Instance, Model};
 use ttb_dynamics::newmark::{Motion, Newmark};
-use ttb_generate::simple_span;
-use ttb_scenario::spec::{BridgeSpec, StructureSpec};
-use ttb_scenario::types::{Damping, Model as Elements, RayleighAt, Reduction, Springs};
+use ttb_scenario::spec::BridgeSpec;
+use ttb_scenario::types::{Model as Elements, Reduction};
 use ttb_sparse::Layout;
 use ttb_sparse::Pencil;
 
-const LENGTH: f64 = 24.0;
-
-/// A girder of shells, with dashpots under its ends if wanted.
-fn girder(dashpots: bool) -> Elements {
-    let mut model = simple_span(LENGTH, 10.8, 3.5, 4500).unwrap();
-    if dashpots {
-        let nodes: Vec<Vec<u32>> = model.nodes.iter().step_by(97).map(|node| vec![node.0]).collect();
-        model.springs.push(Springs { elements: nodes, stiffness: [1e6; 6], damping: [2e5, 1e5, 3e5, 0.0, 0.0, 0.0] });
-    }
-    model
-}
-
-fn stations() -> Vec<f64> {
-    (1..40).map(|i| 0.6 * f64::from(i)).collect()
-}
-
-fn spec(model: Elements) -> BridgeSpec {
-    let spec = common::bridge(StructureSpec::FiniteElements(Box::new(model)), LENGTH, 1, 1e-3);
-    let damping = Damping::Rayleigh { ratio: 0.02, at: RayleighAt::Hz([4.0, 40.0]) };
-    BridgeSpec { supports: stations(), points: vec![common::point("mid", 0.5 * LENGTH)], damping, ..spec }
-}
+const LENGTH: f64 = GIRDER;
 
 fn assembled(model: &Elements) -> (Arc<Pencil>, Vec<Vec<(u32, f64)>>) {
     let assembled = space::assemble(model, &stations(), &[common::point("mid", 0.5 * LENGTH)]).unwrap();

@@ -10,7 +10,7 @@
 //! v is the row of a base spring between track and deck, k̂ = k + a₁c: K_b is never multiplied with (as in
 //! `ttb_bridge::full`).
 
-use ttb_bridge::system::Law;
+use ttb_bridge::law::Law;
 use ttb_dynamics::newmark::{Motion, Newmark};
 use ttb_sparse::Assembly;
 

@@ -7,8 +7,8 @@ use std::path::Path;
 
 use ttb_bridge::assembled::Assembled;
 use ttb_bridge::deck::Row;
-use ttb_bridge::system::Law;
-use ttb_bridge::{imported, plane, space, structure};
+use ttb_bridge::law::Law;
+use ttb_bridge::{imported, law, plane, space};
 use ttb_contract::Instance;
 use ttb_dynamics::newmark::Motion;
 use ttb_scenario::spec::{BridgeSpec, StructureSpec, TrainTrackSpec};
@@ -204,11 +204,11 @@ fn law(damping: &Damping, pencil: &Pencil) -> Result<Law, ReferenceError> {
             ));
         }
     };
-    let omega2 = match structure::modes_needed(damping, None) {
+    let omega2 = match law::modes_needed(damping, None) {
         0 => Vec::new(),
         count => lowest(pencil, &pencil.factor(1.0, 0.0, 0.0).map_err(case)?, count).map_err(case)?.omega2,
     };
-    structure::law(damping, &omega2, ratio, 1.0, 1.0).map_err(case)
+    law::law(damping, &omega2, ratio, 1.0, 1.0).map_err(case)
 }
 
 /// Nodes, their places and what to eliminate last, the rail: the sweeps of a trial then stay short.

@@ -4,10 +4,11 @@ use std::path::Path;
 use std::sync::Arc;
 
 use ttb_bridge::full::Full;
+use ttb_bridge::law::Law;
 use ttb_bridge::lockstep::{Lockstep, RUNS};
 use ttb_bridge::rows::Rows;
 use ttb_bridge::structure::eliminated_last;
-use ttb_bridge::system::{Base, Law, Step, System, Work};
+use ttb_bridge::system::{Base, Step, System, Work};
 use ttb_bridge::{reduction, space};
 use ttb_dynamics::damping::rayleigh;
 use ttb_dynamics::newmark::{Motion, Newmark};

@@ -3,8 +3,12 @@
 
 use ttb_bridge::Bridge;
 use ttb_contract::{Instance, Model};
+use ttb_generate::simple_span;
 use ttb_scenario::spec::{BridgeSpec, StructureSpec};
-use ttb_scenario::types::{Damping, Fixity, Frame, Member, MemberKind, Newmark, Node, Point, Section, Span};
+use ttb_scenario::types::{
+    Damping, Fixity, Frame, Member, MemberKind, Model as Elements, Newmark, Node, Point, RayleighAt, Section, Span,
+    Springs,
+};
 
 /// A span of a simple beam.
 pub fn span(length: f64, bending_stiffness: f64, mass: f64, elements: usize) -> Span {
@@ -156,4 +160,29 @@ impl Train {
             std::mem::swap(&mut now, &mut next);
         }
     }
+}
+
+/// Length of the girder of shells, m.
+pub const GIRDER: f64 = 24.0;
+
+/// A girder of shells, with dashpots under its ends if wanted.
+pub fn girder(dashpots: bool) -> Elements {
+    let mut model = simple_span(GIRDER, 10.8, 3.5, 4500).unwrap();
+    if dashpots {
+        let nodes: Vec<Vec<u32>> = model.nodes.iter().step_by(97).map(|node| vec![node.0]).collect();
+        model.springs.push(Springs { elements: nodes, stiffness: [1e6; 6], damping: [2e5, 1e5, 3e5, 0.0, 0.0, 0.0] });
+    }
+    model
+}
+
+/// Supports on the girder.
+pub fn girder_stations() -> Vec<f64> {
+    (1..40).map(|i| 0.6 * f64::from(i)).collect()
+}
+
+/// The girder with Rayleigh damping, its middle monitored.
+pub fn girder_spec(model: Elements) -> BridgeSpec {
+    let spec = bridge(StructureSpec::FiniteElements(Box::new(model)), GIRDER, 1, 1e-3);
+    let damping = Damping::Rayleigh { ratio: 0.02, at: RayleighAt::Hz([4.0, 40.0]) };
+    BridgeSpec { supports: girder_stations(), points: vec![point("mid", 0.5 * GIRDER)], damping, ..spec }
 }
