@@ -21,6 +21,7 @@ pub mod plane;
 pub mod prepared;
 pub mod reduced;
 pub mod reduction;
+pub mod rounding;
 pub mod rows;
 mod solver;
 pub mod space;

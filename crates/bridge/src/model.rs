@@ -95,6 +95,12 @@ impl Bridge {
         &self.prepared.structure
     }
 
+    /// What the user should know of this bridge, a sentence each: rounding that shows, a reduced model that missed its
+    /// error.
+    pub fn remarks(&self) -> &[String] {
+        &self.structure().remarks
+    }
+
     /// Degrees of freedom of the finite-element model.
     pub fn ndof(&self) -> usize {
         self.prepared.structure.ndof

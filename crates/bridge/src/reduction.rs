@@ -6,6 +6,8 @@
 //!      └──────────────────────────────────────────────────────────────────────────────────────────┘
 //! ```
 //!
+//! It also ends, with a remark, when the space of vectors is full or closed or f is more than a step can show.
+//!
 //! The probe is a train of axle loads that runs over the supports and trembles by ± 15 % with frequencies from 1 to
 //! 100 Hz, harder than a train on a track, whose rail spreads and whose springs hold back what is fast.
 
@@ -13,6 +15,7 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 use ttb_contract::ModelError;
+use ttb_contract::finite::largest;
 use ttb_dynamics::newmark::{Motion, Newmark};
 use ttb_dynamics::reduction::{Answers, Shifted, reduce};
 use ttb_scenario::types::Reduction;
@@ -60,6 +63,8 @@ pub struct Built {
     pub rows: Rows,
     /// Its error.
     pub accuracy: Accuracy,
+    /// What the user should know of it.
+    pub remark: Option<String>,
 }
 
 /// Builds the model from the matrices and the factor of K₀; B are the first of the `rows`, one for each of the `stations`
@@ -115,11 +120,20 @@ pub fn build(
         drop(stepper);
         let [displacement, acceleration] = [0, 1].map(|i| difference(&seen[i], &truth[i]));
         let accuracy = Accuracy { modes, pseudo_modes, highest_frequency: hertz, displacement, acceleration };
-        let chosen = wish.highest_frequency.is_some() || excited.dimension() >= MOST;
-        if acceleration <= wish.error || chosen {
+        if acceleration.is_nan() {
+            return Err(ModelError(
+                "bridge: the reduced model answers the probe load with numbers that are none".into(),
+            ));
+        }
+        let chosen = wish.highest_frequency.is_some();
+        // A frequency that a step cannot show adds nothing.
+        let exhausted = excited.dimension() >= MOST || excited.is_complete() || hertz * newmark.h > 0.5;
+        if acceleration <= wish.error || chosen || exhausted {
+            let missed = !chosen && acceleration > wish.error;
+            let remark = missed.then(|| missed_remark(&accuracy, wish.error, excited.dimension()));
             let rows = Arc::unwrap_or_clone(shared);
             let system = Arc::into_inner(system).ok_or_else(|| ModelError("bridge: a model is held twice".into()))?;
-            return Ok(Built { system, rows, accuracy });
+            return Ok(Built { system, rows, accuracy, remark });
         }
         hertz *= NEXT;
     }
@@ -173,8 +187,17 @@ fn load(stations: &[f64], t: f64, forces: &mut [f64]) {
     }
 }
 
-/// Greatest difference relative to the greatest value.
+fn missed_remark(accuracy: &Accuracy, wish: f64, vectors: usize) -> String {
+    format!(
+        "bridge: the reduced model was to be right to {wish:e} of the greatest acceleration and reaches {:.1e}, with {} modes \
+         up to {:.0} Hz and {} pseudo-modes out of {vectors} vectors; a greater `reduction.error`, or no `reduction`, says \
+         what is meant",
+        accuracy.acceleration, accuracy.modes, accuracy.highest_frequency, accuracy.pseudo_modes
+    )
+}
+
+/// Greatest difference relative to the greatest value; nothing differs where both are zero.
 fn difference(a: &[f64], b: &[f64]) -> f64 {
-    let largest = b.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
-    a.iter().zip(b).fold(0.0_f64, |m, (a, b)| m.max((a - b).abs())) / largest
+    let greatest = largest(a.iter().zip(b).map(|(a, b)| (a - b).abs()));
+    if greatest == 0.0 { 0.0 } else { greatest / largest(b.iter().map(|x| x.abs())) }
 }

@@ -28,6 +28,8 @@ pub struct Solver {
     pub accuracy: Option<Accuracy>,
     /// What the FMU keeps in a file of its own, if it does.
     pub source: Option<Source>,
+    /// What the user should know of it.
+    pub remark: Option<String>,
 }
 
 impl Solver {
@@ -47,10 +49,10 @@ impl Solver {
         if let Some(wish) = &spec.reduction {
             let law = law(&spec.damping, &modes.omega2, ratio(&spec.damping), 1.0, 1.0)?;
             let newmark = Newmark::new(spec.newmark.gamma, spec.newmark.beta, spec.step);
-            let Built { system, rows, accuracy } =
+            let Built { system, rows, accuracy, remark } =
                 reduction::build(&pencil, &statics, &law, newmark, rows, &spec.supports, wish)?;
             let source = Some(Source::Reduced { omega2: system.omega2().to_vec() });
-            return Ok(Self { system: Arc::new(system), rows, accuracy: Some(accuracy), source });
+            return Ok(Self { system: Arc::new(system), rows, accuracy: Some(accuracy), source, remark });
         }
         let rows = Rows::new(rows);
         if let Some(count) = spec.modes {
@@ -58,11 +60,23 @@ impl Solver {
             modes.omega2.truncate(count);
             let source = (!small).then(|| Source::Reduced { omega2: modes.omega2.clone() });
             let rows = rows.project(&modes.shapes);
-            return Ok(Self { system: Arc::new(Reduced::new(modes.omega2)), rows, accuracy: None, source });
+            return Ok(Self {
+                system: Arc::new(Reduced::new(modes.omega2)),
+                rows,
+                accuracy: None,
+                source,
+                remark: None,
+            });
         }
         let damped = if matches!(spec.damping, Damping::Modal { .. }) { modes } else { Modes::default() };
         let shapes = damped.shapes.clone();
         let source = (!small).then(|| Source::Full { pencil: Arc::clone(&pencil), shapes });
-        Ok(Self { system: Arc::new(Full::new(pencil, Some(statics), damped)), rows, accuracy: None, source })
+        Ok(Self {
+            system: Arc::new(Full::new(pencil, Some(statics), damped)),
+            rows,
+            accuracy: None,
+            source,
+            remark: None,
+        })
     }
 }

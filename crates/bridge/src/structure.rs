@@ -13,6 +13,7 @@ use crate::assembled::{Assembled, Monitor, Names};
 use crate::deck::Row;
 use crate::law::{Law, law, modes_needed};
 use crate::reduction::Accuracy;
+use crate::rounding;
 use crate::rows::Rows;
 use crate::solver::Solver;
 use crate::stored::{Restored, Source, Stored};
@@ -42,6 +43,8 @@ pub struct Structure {
     pub accuracy: Option<Accuracy>,
     /// What its FMU keeps in a file of its own.
     source: Option<Source>,
+    /// What its user should know, a sentence each.
+    pub remarks: Vec<String>,
 }
 
 impl Structure {
@@ -65,6 +68,7 @@ impl Structure {
         let layout = Layout { node_of, place: nodes, last: eliminated_last(&supports, ndof), order: Vec::new() };
         let pencil = Arc::new(equations.finish_with(&layout).map_err(in_bridge)?);
         let statics = Arc::new(pencil.factor(1.0, 0.0, 0.0).map_err(|e| explain(&names, e))?);
+        let mut remarks: Vec<String> = rounding::check(&pencil, &statics, &supports)?.into_iter().collect();
         let needed = modes_needed(&spec.damping, spec.modes);
         let modes =
             if needed == 0 { Modes::default() } else { lowest(&pencil, &statics, needed).map_err(in_bridge)? };
@@ -75,7 +79,8 @@ impl Structure {
         }
         let (omega2, rows, damping) = (modes.omega2.clone(), [supports, monitors].concat(), spec.damping.clone());
         let solver = Solver::new(spec, Arc::clone(&pencil), statics, modes, &rows)?;
-        let Solver { system, rows, accuracy, source } = solver;
+        let Solver { system, rows, accuracy, source, remark } = solver;
+        remarks.extend(remark);
         let (pencil, supports) = (Some(pencil), first_monitor);
         Ok(Self {
             ndof,
@@ -89,6 +94,7 @@ impl Structure {
             points,
             accuracy,
             source,
+            remarks,
         })
     }
 
@@ -97,7 +103,8 @@ impl Structure {
         let Restored { system, rows, pencil } = stored.system()?;
         let Stored { ndof, mass, omega2, supports, points, accuracy, .. } = stored;
         let (damping, rows) = (spec.damping.clone(), Arc::new(rows));
-        Ok(Self { ndof, mass, pencil, omega2, damping, system, rows, supports, points, accuracy, source: None })
+        let (source, remarks) = (None, Vec::new());
+        Ok(Self { ndof, mass, pencil, omega2, damping, system, rows, supports, points, accuracy, source, remarks })
     }
 
     /// What its FMU keeps in a file of its own, if it does.

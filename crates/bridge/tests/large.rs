@@ -164,6 +164,28 @@ fn a_reduced_bridge_keeps_what_it_states() {
 }
 
 #[test]
+fn an_error_that_no_reduced_model_reaches_ends_and_is_told() {
+    let reduction = Some(Reduction { error: 1e-12, ..Reduction::default() });
+    // A step of 5 ms shows up to 100 Hz.
+    let bridge = Bridge::new(BridgeSpec { reduction, step: 5e-3, ..spec(girder(false)) }).unwrap();
+    let reached = bridge.accuracy().unwrap().acceleration;
+    let [remark] = bridge.remarks() else { panic!("{:?}", bridge.remarks()) };
+    println!("{remark}");
+    assert!(remark.contains("1e-12") && remark.contains(&format!("{reached:.1e}")), "{remark}");
+    assert!(reached > 1e-12 && reached < 1.0);
+}
+
+#[test]
+fn a_bridge_that_the_probe_does_not_move_has_no_error() {
+    // One support: the probe's axles have nothing to stand between.
+    let reduction = Some(Reduction::default());
+    let bridge = Bridge::new(BridgeSpec { reduction, supports: vec![12.0], ..spec(girder(false)) }).unwrap();
+    let accuracy = bridge.accuracy().unwrap();
+    assert_eq!([accuracy.displacement, accuracy.acceleration], [0.0; 2]);
+    assert!(bridge.remarks().is_empty());
+}
+
+#[test]
 fn runs_in_lockstep_are_the_runs_alone() {
     let (pencil, rows) = assembled(&girder(false));
     let (newmark, n, supports) = (Newmark::new(0.5, 0.25, 1e-3), pencil.ndof(), stations().len());

@@ -54,6 +54,11 @@ impl<'a> Excited<'a> {
         self.0.processed()
     }
 
+    /// Nothing is left to search: the space holds all that the loads excite.
+    pub fn is_complete(&self) -> bool {
+        self.0.is_closed()
+    }
+
     /// Enlarges the space by `blocks` blocks, as far as it can be.
     fn advance(&mut self, blocks: usize) {
         for _ in 0..blocks {

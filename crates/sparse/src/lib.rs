@@ -7,6 +7,7 @@
 
 pub mod assembly;
 pub mod blocks;
+pub mod condition;
 mod entries;
 pub mod error;
 pub mod excited;
@@ -26,6 +27,7 @@ mod symmetric;
 pub mod vector;
 
 pub use assembly::Assembly;
+pub use condition::Condition;
 pub use error::FactorError;
 pub use factor::Factor;
 pub use order::layout::Layout;

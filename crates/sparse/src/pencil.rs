@@ -46,6 +46,30 @@ impl Pencil {
         self.add_mass(x, &mut y);
         y
     }
+    /// f − K x, every sum carried in twice the precision.
+    pub fn residual(&self, load: &[f64], x: &[f64]) -> Vec<f64> {
+        let mut sums: Vec<[f64; 2]> = load.iter().map(|f| [*f, 0.0]).collect();
+        for (i, j, k) in self.stiffness_entries() {
+            take_product(&mut sums[i], k, x[j]);
+            if i != j {
+                take_product(&mut sums[j], k, x[i]);
+            }
+        }
+        sums.into_iter().map(|[sum, rest]| sum + rest).collect()
+    }
+    /// |x|ᵀ|K||x|.
+    pub fn stiffness_of_magnitudes(&self, x: &[f64]) -> f64 {
+        let term = |(i, j, k): (usize, usize, f64)| if i == j { 1.0 } else { 2.0 } * (k * x[i] * x[j]).abs();
+        self.stiffness_entries().map(term).sum()
+    }
+    /// Row, column and number of every entry of K's lower triangle.
+    fn stiffness_entries(&self) -> impl Iterator<Item = (usize, usize, f64)> {
+        let (starts, rows) = (self.pattern.col_ptr(), self.pattern.row_idx());
+        (0..self.ndof()).flat_map(move |j| {
+            let column = starts[j] as usize..starts[j + 1] as usize;
+            rows[column.clone()].iter().zip(&self.k[column]).map(move |(&i, &k)| (i as usize, j, k))
+        })
+    }
     /// Whether there are dashpots.
     pub fn has_dashpots(&self) -> bool {
         !self.damping.is_empty()
@@ -101,4 +125,14 @@ impl Pencil {
             }
         }
     }
+}
+
+/// sum ← sum − a x with its rounding errors (two-product by fused multiplication, two-sum of Knuth).
+fn take_product([sum, rest]: &mut [f64; 2], a: f64, x: f64) {
+    let product = -(a * x);
+    let lost = (-a).mul_add(x, -product);
+    let total = *sum + product;
+    let part = total - *sum;
+    *rest += (*sum - (total - part)) + (product - part) + lost;
+    *sum = total;
 }

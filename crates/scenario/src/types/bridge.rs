@@ -172,7 +172,7 @@ pub struct Reduction {
 
 impl Default for Reduction {
     fn default() -> Self {
-        Self { highest_frequency: None, error: 0.15 }
+        Self { highest_frequency: None, error: 0.05 }
     }
 }
 
