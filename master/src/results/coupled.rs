@@ -20,8 +20,8 @@ pub struct CouplingReport {
     pub model: Option<&'static str>,
     /// Methods that took over in the course of the run, and when.
     pub switches: Vec<Switch>,
-    /// Steps without iteration: largest force that was missing at the end of a step, relative; a bound of the error of
-    /// displacements.
+    /// Steps without iteration: largest force that was missing at the end of a step, relative: an estimate of the error that
+    /// a step makes in displacements. Errors of many steps may add up, and accelerations may be further off.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub error_estimate: Option<f64>,
     /// Work at the interface; absent where it is not known which force moves along which displacement.

@@ -7,6 +7,8 @@
 //! whole    M q̈ + c q̇ + (K + k) q = k p    the monolithic solution by the same rule
 //! ```
 
+#![allow(dead_code, reason = "every test takes what it needs")]
+
 use ttb_contract::{Component, Failure, Port, Ports, Subsystem};
 
 /// Supports, and forces.
@@ -69,7 +71,14 @@ fn solve(mut a: Vec<Vec<f64>>, mut b: Vec<f64>) -> Vec<f64> {
 }
 
 /// One step of M q̈ + c q̇ + K q = f by the trapezoidal rule, f at both ends.
-fn step(q: &mut [f64], v: &mut [f64], h: f64, k: &dyn Fn(usize, usize) -> f64, c: &dyn Fn(usize) -> f64, f: [&[f64]; 2]) {
+fn step(
+    q: &mut [f64],
+    v: &mut [f64],
+    h: f64,
+    k: &dyn Fn(usize, usize) -> f64,
+    c: &dyn Fn(usize) -> f64,
+    f: [&[f64]; 2],
+) {
     let m = |i: usize| MASS[component(i)];
     let n = q.len();
     // With v₁ = 2 (q₁ − q)/h − v: (4M/h² + 2c/h + K) q₁ = f₁ + f − K q + M (4q/h² + 4v/h) + c 2q/h
