@@ -9,9 +9,9 @@ use ttb_coupling::{Adapted, Joined, Lacks, Shape, Stations};
 const H: f64 = 2e-3;
 
 /// A deck with its velocities left out.
-struct Mute(spatial::Side);
+struct NoVelocities(spatial::Side);
 
-impl Subsystem for Mute {
+impl Subsystem for NoVelocities {
     fn set_inputs(&mut self, values: &[f64], rates: Option<&[f64]>) -> Result<(), Failure> {
         self.0.set_inputs(values, rates)
     }
@@ -47,7 +47,7 @@ impl Subsystem for Mute {
         let [_, mut deck] = sides(1.0);
         deck.set_inputs(inputs, None)?;
         deck.exit_initialization()?;
-        Ok(Some(Box::new(Mute(deck))))
+        Ok(Some(Box::new(NoVelocities(deck))))
     }
     fn output_name(&self, index: usize) -> String {
         format!("d[{index}]")
@@ -61,7 +61,7 @@ impl Subsystem for Mute {
         Ok(())
     }
     fn name(&self) -> &str {
-        "mute"
+        "no velocities"
     }
 }
 
@@ -74,41 +74,41 @@ fn forces(n: usize, count: usize) -> [Vec<f64>; 2] {
     [now, rates]
 }
 
-fn adapted(stations: Option<Stations>) -> Adapted<Mute> {
+fn adapted(stations: Option<Stations>) -> Adapted<NoVelocities> {
     let [_, deck] = sides(1.0);
-    Adapted::new(Mute(deck), Lacks { points: SUPPORTS, components: 3, stations, velocities: true }, H)
+    Adapted::new(NoVelocities(deck), Lacks { points: SUPPORTS, components: 3, stations, velocities: true }, H)
 }
 
 #[test]
 fn velocities_of_a_deck_that_integrates_by_the_trapezoidal_rule_are_its_own() {
-    let ([_, mut whole], mut mute) = (sides(1.0), adapted(None));
+    let ([_, mut whole], mut without) = (sides(1.0), adapted(None));
     let (mut a, mut b) = (vec![0.0; 2 * N], vec![1.0; 2 * N]);
     let [zero, _] = forces(0, N);
-    for side in [&mut whole as &mut dyn Subsystem, &mut mute] {
+    for side in [&mut whole as &mut dyn Subsystem, &mut without] {
         side.set_inputs(&zero, None).expect("inputs");
     }
-    mute.get_outputs(&mut b).expect("motion");
+    without.get_outputs(&mut b).expect("motion");
     assert_eq!(b[N..], [0.0; N], "no velocity in equilibrium");
-    whole.exit_initialization().and_then(|()| mute.exit_initialization()).expect("start");
+    whole.exit_initialization().and_then(|()| without.exit_initialization()).expect("start");
     for n in 0..50 {
         let [now, rates] = forces(n, N);
         // A step that is taken back leaves nothing behind.
-        mute.save().expect("saved");
-        mute.set_inputs(&now, None).and_then(|()| mute.step(0.0, 3.0 * H, true)).expect("a step");
-        mute.restore().expect("restored");
-        for side in [&mut whole as &mut dyn Subsystem, &mut mute] {
+        without.save().expect("saved");
+        without.set_inputs(&now, None).and_then(|()| without.step(0.0, 3.0 * H, true)).expect("a step");
+        without.restore().expect("restored");
+        for side in [&mut whole as &mut dyn Subsystem, &mut without] {
             side.set_inputs(&now, Some(&rates)).and_then(|()| side.step(n as f64 * H, H, true)).expect("a step");
         }
-        whole.get_outputs(&mut a).and_then(|()| mute.get_outputs(&mut b)).expect("motion");
+        whole.get_outputs(&mut a).and_then(|()| without.get_outputs(&mut b)).expect("motion");
         let largest = a[N..].iter().fold(1e-6_f64, |most, v| most.max(v.abs()));
         assert!(a.iter().zip(&b).all(|(a, b)| (a - b).abs() <= 1e-9 * largest), "{a:?} {b:?}");
     }
     let mut change = vec![0.0; 2 * N];
-    mute.derivative(&[1.0; N], &mut change).expect("derivative");
+    without.derivative(&[1.0; N], &mut change).expect("derivative");
     for i in 0..N {
         assert_eq!((change[i], change[N + i]), ((i + 1) as f64, 2.0 / H * (i + 1) as f64));
     }
-    assert_eq!((mute.output_name(1), mute.output_name(N + 1)), ("d[1]".into(), "d[1]".into()));
+    assert_eq!((without.output_name(1), without.output_name(N + 1)), ("d[1]".into(), "d[1]".into()));
 }
 
 #[test]
@@ -233,8 +233,8 @@ fn several_bridges_are_one_whose_positions_come_before_its_rates() {
 #[test]
 fn several_bridges_need_position_and_rate_of_every_port() {
     let known = ttb_contract::Known::Position;
-    let lame = Ports::new(vec![Port { known, ..Port::new(1, Component::Vertical, 1.0) }], 0).expect("a port");
+    let incomplete = Ports::new(vec![Port { known, ..Port::new(1, Component::Vertical, 1.0) }], 0).expect("a port");
     let bridge = |ports: &Ports| (Echo("bridge", Vec::new()), ports.clone());
-    assert!(Joined::new(vec![bridge(&lame), bridge(&ports(1.0))]).is_none());
-    assert!(Joined::new(vec![bridge(&lame)]).is_some());
+    assert!(Joined::new(vec![bridge(&incomplete), bridge(&ports(1.0))]).is_none());
+    assert!(Joined::new(vec![bridge(&incomplete)]).is_some());
 }

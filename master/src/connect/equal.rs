@@ -29,7 +29,7 @@ pub fn equal_names(
             "{a} and {b} share no variable of equal name that is an input of one and an output of the other"
         )));
     }
-    refuse_strangers(bridge, train_track, &forces)?;
+    refuse_other_scenarios(bridge, train_track, &forces)?;
     if let Some(open) = unconnected(bridge.description(), &forces) {
         warnings.push(format!("{}: input {open} is connected to nothing and keeps its start value", bridge.name()));
     }
@@ -74,15 +74,15 @@ fn unconnected(description: &ModelDescription, connected: &[String]) -> Option<S
 
 /// Two FMUs of different scenarios share some names of a series, `support[1].force` and so on, and lack others: coupled all
 /// the same they would lose forces.
-fn refuse_strangers(bridge: &FmuInstance, train_track: &FmuInstance, forces: &[String]) -> Result<(), Error> {
+fn refuse_other_scenarios(bridge: &FmuInstance, train_track: &FmuInstance, forces: &[String]) -> Result<(), Error> {
     let series = |name: &str| name.split(|c: char| c.is_ascii_digit()).collect::<Vec<_>>().join("#");
     let coupled: HashSet<String> = forces.iter().map(|name| series(name)).collect();
     let known: HashSet<&str> = forces.iter().map(String::as_str).collect();
     for (fmu, causality) in [(bridge, "input"), (train_track, "output")] {
         let alone = |name: &str| coupled.contains(&series(name)) && !known.contains(name);
-        let mut lonely = fmu.description().with_causality(causality).filter(|v| alone(&v.name));
-        if let Some(first) = lonely.next() {
-            let (name, more) = (&first.name, lonely.count());
+        let mut alone_there = fmu.description().with_causality(causality).filter(|v| alone(&v.name));
+        if let Some(first) = alone_there.next() {
+            let (name, more) = (&first.name, alone_there.count());
             return Err(Error::Input(format!(
                 "{}: {causality} {name} (and {more} more) has no partner, though {} others of its series have: the two FMUs \
                  belong to different scenarios",

@@ -20,7 +20,7 @@ pub(crate) struct Strategy {
     quasi: Option<QuasiNewton>,
     newton: Option<Newton>,
     /// There is no useful model: nobody may ask again.
-    hopeless: bool,
+    no_model: bool,
     /// |r| of the trial before.
     before: f64,
     /// `Auto`: trials beyond [`ENOUGH`] a step so far, and their running mean a step.
@@ -53,7 +53,7 @@ impl Strategy {
             aitken: Aitken::new(n),
             quasi: None,
             newton: None,
-            hopeless: false,
+            no_model: false,
             before: f64::INFINITY,
             spent: 0.0,
             mean: 0.0,
@@ -75,14 +75,14 @@ impl Strategy {
     pub fn wants_model(&self) -> bool {
         let pays = || self.spent > self.n as f64 && self.mean > MANY[usize::from(self.n > SMALL)];
         let wanted = self.method == Method::Newton || (self.asked == Method::Auto && pays());
-        wanted && self.newton.is_none() && !self.hopeless
+        wanted && self.newton.is_none() && !self.no_model
     }
 
     /// What was identified for steps of `h` seconds.
     pub fn take(&mut self, model: Model, h: f64) {
         self.newton = Newton::new(model, h, self.reuse);
-        self.hopeless = self.newton.is_none();
-        self.method = if self.hopeless { Method::IqnIls } else { Method::Newton };
+        self.no_model = self.newton.is_none();
+        self.method = if self.no_model { Method::IqnIls } else { Method::Newton };
         self.mean = ENOUGH;
     }
 
@@ -96,7 +96,7 @@ impl Strategy {
         if self.method != Method::Newton || self.mean <= MANY[2] {
             return None;
         }
-        (self.method, self.newton, self.hopeless) = (Method::IqnIls, None, true);
+        (self.method, self.newton, self.no_model) = (Method::IqnIls, None, true);
         Some(self.method)
     }
 

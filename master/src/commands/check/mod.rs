@@ -74,15 +74,15 @@ fn findings(fmu: &Path, patience: Duration, preload: &[OsString]) -> Result<Vec<
         return Ok(found);
     }
     for check in worker::CHECKS {
-        let verdict = process::run(check.name, folder.path(), patience, preload)?;
-        let fresh = verdict.findings.iter().any(|finding| finding.severity == finding::Severity::Error);
-        for finding in verdict.findings {
+        let outcome = process::run(check.name, folder.path(), patience, preload)?;
+        let fresh = outcome.findings.iter().any(|finding| finding.severity == finding::Severity::Error);
+        for finding in outcome.findings {
             if !found.iter().any(|other| other.same(&finding)) {
                 found.push(finding);
             }
         }
         // What does not live cannot be tested further.
-        if check.vital && (fresh || !verdict.finished) {
+        if check.vital && (fresh || !outcome.finished) {
             break;
         }
     }

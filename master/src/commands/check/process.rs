@@ -13,7 +13,7 @@ use ttb_fmi::temporary::Temporary;
 use crate::error::Error;
 
 /// What a worker left behind.
-pub struct Verdict {
+pub struct Outcome {
     /// What it found, and how it ended if not well.
     pub findings: Vec<Finding>,
     /// Whether it came to its end.
@@ -28,7 +28,7 @@ const LOOK: Duration = Duration::from_millis(5);
 
 /// Runs one check on an unpacked FMU; `patience` is how long a single call may take, `preload` the option
 /// for libraries to load first.
-pub fn run(check: &str, folder: &Path, patience: Duration, preload: &[OsString]) -> Result<Verdict, Error> {
+pub fn run(check: &str, folder: &Path, patience: Duration, preload: &[OsString]) -> Result<Outcome, Error> {
     let place = Temporary::new("ttb-check-").map_err(Error::io(Path::new("temporary folder")))?;
     let file = |name: &str| place.path().join(name);
     let cwd = file("empty folder");
@@ -73,7 +73,7 @@ pub fn run(check: &str, folder: &Path, patience: Duration, preload: &[OsString])
             *text = plain(text);
         }
     }
-    Ok(Verdict { findings, finished: finished && ended.is_none() })
+    Ok(Outcome { findings, finished: finished && ended.is_none() })
 }
 
 /// The end of a process; nothing if it had to be stopped.
