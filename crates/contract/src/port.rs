@@ -18,7 +18,7 @@ impl Component {
     pub const ALL: [Self; 3] = [Self::Vertical, Self::Lateral, Self::Roll];
 
     /// Last part of the force's name.
-    pub fn force(self) -> &'static str {
+    pub const fn force(self) -> &'static str {
         match self {
             Self::Vertical => "force",
             Self::Lateral => "force_y",
@@ -27,7 +27,7 @@ impl Component {
     }
 
     /// Last part of the name of the force's mean over a step.
-    pub fn mean_force(self) -> &'static str {
+    pub const fn mean_force(self) -> &'static str {
         match self {
             Self::Vertical => "mean_force",
             Self::Lateral => "mean_force_y",
@@ -36,7 +36,7 @@ impl Component {
     }
 
     /// Last part of the position's name.
-    pub fn position(self) -> &'static str {
+    pub const fn position(self) -> &'static str {
         match self {
             Self::Vertical => "displacement",
             Self::Lateral => "displacement_y",
@@ -45,7 +45,7 @@ impl Component {
     }
 
     /// Last part of the rate's name.
-    pub fn rate(self) -> &'static str {
+    pub const fn rate(self) -> &'static str {
         match self {
             Self::Vertical => "velocity",
             Self::Lateral => "velocity_y",
@@ -54,7 +54,7 @@ impl Component {
     }
 
     /// SI unit of the force.
-    pub fn unit(self) -> &'static str {
+    pub const fn unit(self) -> &'static str {
         match self {
             Self::Vertical | Self::Lateral => "N",
             Self::Roll => "N.m",
@@ -71,7 +71,7 @@ impl Component {
     }
 
     /// SI units of position and rate.
-    pub fn motion_units(self) -> [&'static str; 2] {
+    pub const fn motion_units(self) -> [&'static str; 2] {
         match self {
             Self::Vertical | Self::Lateral => ["m", "m/s"],
             Self::Roll => ["rad", "rad/s"],

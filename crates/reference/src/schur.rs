@@ -27,7 +27,7 @@ impl Schur {
         let n = wheels.len();
         Self {
             contacts: Contacts::new(wheels.laws.clone()),
-            delta: wheels.laws.iter().map(ttb_train_track::contact::Law::static_approach).collect(),
+            delta: wheels.laws.iter().map(ttb_train_track::law::Law::static_approach).collect(),
             free: vec![0.0; n],
             compliance: vec![0.0; n * n],
         }

@@ -1,6 +1,6 @@
 //! The wheels: where they stand, and how the contact of each, in series with the rail's local compliance, answers.
 
-use ttb_train_track::contact::Law;
+use ttb_train_track::law::Law;
 use ttb_train_track::profile::Irregularity;
 use ttb_train_track::speed::Running;
 use ttb_train_track::track::{RailPoint, Track};

@@ -19,7 +19,7 @@ use ttb_sparse::Pencil;
 use ttb_sparse::modes::lowest;
 use ttb_train_track::TrainTrack;
 use ttb_train_track::car::{AXLES, Car};
-use ttb_train_track::contact::Law as Contact;
+use ttb_train_track::law::Law as Contact;
 use ttb_train_track::profile::Irregularity;
 use ttb_train_track::speed::Running;
 use ttb_train_track::track::{FastenerFactors, Track};
@@ -92,7 +92,7 @@ impl Whole {
             StructureSpec::Stored => return Err(case("a stored bridge has no equations to compare with")),
         };
         let assembled = assembled.map_err(case)?;
-        let track = Track::new(train, FastenerFactors { stiffness: 1.0, damping: 1.0 });
+        let track = Track::new(train, FastenerFactors::default());
         let layout = layout(train, &track, &assembled);
         let Assembled { equations, nodes, node_of, supports, monitors, points, .. } = assembled;
         let own = Layout { node_of, place: nodes, ..Layout::default() };

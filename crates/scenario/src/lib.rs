@@ -8,6 +8,7 @@ mod check;
 pub mod deck;
 mod density;
 mod json;
+pub mod limits;
 mod load;
 mod measured;
 pub mod model;

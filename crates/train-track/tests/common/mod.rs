@@ -50,7 +50,12 @@ pub fn trailer() -> Car {
 
 /// An initialized, started instance.
 pub fn started(spec: TrainTrackSpec) -> Instance<TrainTrack> {
-    let mut instance = Instance::new(TrainTrack::new(spec).expect("valid"));
+    initialized(TrainTrack::new(spec).expect("valid"))
+}
+
+/// An initialized, started instance of a model.
+pub fn initialized(model: TrainTrack) -> Instance<TrainTrack> {
+    let mut instance = Instance::new(model);
     instance.enter_initialization(0.0).expect("initialization");
     instance.exit_initialization().expect("start");
     instance

@@ -1,6 +1,6 @@
 //! What is known of a whole macro step, not of its end only: means, peaks and work over its sub-steps.
 
-use crate::coupled::State;
+use crate::state::State;
 use crate::track::{RailPoint, Track};
 
 /// Gathered sub-step by sub-step, τ of m each:
@@ -9,7 +9,7 @@ use crate::track::{RailPoint, Track};
 /// λ̄ = Σ (λ_{i−1} + λ_i)/2m,   W = Σ (λ_{i−1} + λ_i)/2 · (d_i − d_{i−1})
 /// ```
 #[derive(Clone, Debug, Default)]
-pub struct Over {
+pub struct StepMeans {
     /// λ̄, mean support forces, N.
     pub mean: Vec<f64>,
     /// Monitored points of the rail.
@@ -20,7 +20,7 @@ pub struct Over {
     pub work: f64,
 }
 
-impl Over {
+impl StepMeans {
     /// For so many supports on the bridge, and points of the rail.
     pub fn new(supports: usize, points: Vec<RailPoint>) -> Self {
         Self { mean: vec![0.0; supports], peaks: vec![0.0; points.len()], points, work: 0.0 }

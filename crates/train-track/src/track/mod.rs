@@ -9,9 +9,10 @@
 //! The lowest spring ("base") belongs to the track: it receives the deck's motion d, ḋ and returns the support force
 //! k(u − d) + c(u̇ − ḋ), positive down on the deck. On the ground d = 0.
 
+mod forces;
+
 use ttb_dynamics::band::Band;
 use ttb_dynamics::beam::{Beam, Matrix4};
-use ttb_dynamics::newmark::{Motion, Newmark};
 use ttb_scenario::spec::TrainTrackSpec;
 use ttb_scenario::types::{Spring, Support};
 
@@ -22,6 +23,12 @@ pub struct FastenerFactors {
     pub stiffness: f64,
     /// On its damping.
     pub damping: f64,
+}
+
+impl Default for FastenerFactors {
+    fn default() -> Self {
+        Self { stiffness: 1.0, damping: 1.0 }
+    }
 }
 
 /// A spring–dashpot between two degrees of freedom.
@@ -210,72 +217,5 @@ impl Track {
             matrix.add(dof, dof, effective(&self.base));
         }
         matrix
-    }
-
-    /// y = M x, element by element along the rail; a node's share from the element behind is carried on.
-    fn multiply_mass(&self, x: &[f64], y: &mut [f64]) {
-        let m = &self.element_mass;
-        let mut carried = [0.0; 2];
-        for nodes in self.nodes.windows(2) {
-            let (a, b) = (nodes[0], nodes[1]);
-            let q = [x[a], x[a + 1], x[b], x[b + 1]];
-            let row = |i: usize| m[i][0] * q[0] + m[i][1] * q[1] + m[i][2] * q[2] + m[i][3] * q[3];
-            (y[a], y[a + 1]) = (carried[0] + row(0), carried[1] + row(1));
-            carried = [row(2), row(3)];
-        }
-        let last = self.nodes[self.elements];
-        (y[last], y[last + 1]) = (carried[0], carried[1]);
-        for (dof, mass) in &self.lumped {
-            y[*dof] = mass * x[*dof];
-        }
-    }
-
-    /// p = M (a₀u + a₂u̇ + a₃ü) + C (a₁u + a₄u̇ + a₅ü); `work` is scratch of the same length.
-    pub fn history(&self, newmark: &Newmark, old: &Motion, p: &mut [f64], work: &mut [f64]) {
-        let terms = || old.u.iter().zip(&old.v).zip(&old.a);
-        for (w, ((u, v), a)) in work.iter_mut().zip(terms()) {
-            *w = newmark.inertia(*u, *v, *a);
-        }
-        self.multiply_mass(work, p);
-        let damping = |i: usize| newmark.damping(old.u[i], old.v[i], old.a[i]);
-        for link in &self.links {
-            let [i, j] = link.dofs;
-            let force = link.spring.damping * (damping(i) - damping(j));
-            p[i] += force;
-            p[j] -= force;
-        }
-        for support in 0..=self.elements / self.elements_per_bay {
-            let i = self.base_dof(support);
-            p[i] += self.base.damping * damping(i);
-        }
-    }
-
-    /// Rail node over and degree of freedom above the base spring of every support on the bridge.
-    pub fn bridge_bases(&self) -> impl Iterator<Item = (usize, usize)> + '_ {
-        self.on_bridge.iter().map(|support| (support * self.elements_per_bay, self.base_dof(*support)))
-    }
-
-    /// k d + c ḋ of the base springs on the bridge; `deck` is [d…, ḋ…].
-    pub fn deck_forces(&self, deck: &[f64], forces: &mut [f64]) {
-        let (d, v) = deck.split_at(self.on_bridge.len());
-        for ((force, d), v) in forces.iter_mut().zip(d).zip(v) {
-            *force = self.base.stiffness * d + self.base.damping * v;
-        }
-    }
-
-    /// f += deck forces at the degrees of freedom they act on.
-    pub fn add_deck_forces(&self, forces: &[f64], f: &mut [f64]) {
-        for ((_, base), force) in self.bridge_bases().zip(forces) {
-            f[base] += force;
-        }
-    }
-
-    /// Support forces k(u − d) + c(u̇ − ḋ) on the bridge, N.
-    pub fn support_forces(&self, motion: &Motion, deck: &[f64], forces: &mut [f64]) {
-        let (d, v) = deck.split_at(self.on_bridge.len());
-        for (((force, support), d), v) in forces.iter_mut().zip(&self.on_bridge).zip(d).zip(v) {
-            let i = self.base_dof(*support);
-            *force = self.base.stiffness * (motion.u[i] - d) + self.base.damping * (motion.v[i] - v);
-        }
     }
 }

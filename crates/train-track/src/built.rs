@@ -1,0 +1,206 @@
+//! Everything that follows from the parameters, and the running state: set-up and macro steps around
+//! [`TrainTrackSystem::step`].
+
+use std::sync::Arc;
+
+use ttb_dynamics::newmark::Newmark;
+use ttb_dynamics::pool::Pool;
+use ttb_scenario::limits::{MOST_SUBSTEPS, pre_roll_steps};
+use ttb_scenario::spec::TrainTrackSpec;
+use ttb_scenario::travel::wheel_offsets;
+
+use crate::car::{AXLES, Car};
+use crate::contact::Contacts;
+use crate::coupled::{StepMatrices, TrainTrackSystem};
+use crate::law::Law;
+use crate::outputs::View;
+use crate::parameters::{Parameter, Parameters};
+use crate::pre_roll::pre_roll;
+use crate::prepared::Prepared;
+use crate::profile::Irregularity;
+use crate::speed::Running;
+use crate::state::State;
+use crate::statics::equilibrium;
+use crate::step_means::StepMeans;
+use crate::wheels::{Wheels, on_rail};
+
+/// Steps within this of a factorised one are that one.
+const SAME_STEP: f64 = 1e-9;
+/// Step sizes kept factorised.
+const STEP_SIZES: usize = 4;
+
+/// A train on its track, ready to run.
+pub struct Built {
+    system: TrainTrackSystem,
+    /// The nominal step first, then others as they come.
+    steps: Vec<StepMatrices>,
+    start: f64,
+    pre_roll: f64,
+    input_meaning: f64,
+    state: Arc<State>,
+    pool: Pool<State>,
+    /// [d…, ḋ…] at the end of a sub-step.
+    deck: Vec<f64>,
+    /// What the last macro step adds to its end.
+    means: StepMeans,
+}
+
+impl Built {
+    /// Sets up a train on a prepared track, at rest; time counts from `start`.
+    ///
+    /// # Errors
+    /// Parameters that this train cannot run with, as a message.
+    pub fn new(
+        spec: &TrainTrackSpec,
+        prepared: Arc<Prepared>,
+        parameters: &Parameters,
+        start: f64,
+    ) -> Result<Self, String> {
+        let get = |parameter| parameters.get(parameter);
+        let (first, speed) = (spec.speed[0][1], get(Parameter::Speed));
+        if first <= 0.0 && speed != first {
+            return Err("parameter speed scales the speed profile, which begins at rest: it cannot be changed".into());
+        }
+        let running = Running::new(&spec.speed, if first > 0.0 { speed / first } else { 1.0 });
+        let newmark = Newmark::new(get(Parameter::Gamma), get(Parameter::Beta), get(Parameter::StepSize));
+        // The cars are pre-rolled over their own length more, so that the last one has run as far as asked.
+        let length: f64 = spec.cars.iter().map(|c| c.length).sum();
+        let pre_roll = if get(Parameter::PreRoll) > 0.0 { get(Parameter::PreRoll) + length } else { 0.0 };
+        pre_roll_steps(pre_roll, running.speed(0.0), newmark.h).map_err(|e| format!("parameter pre_roll: {e}"))?;
+        let (track, front) = (&prepared.track, get(Parameter::FrontWheel));
+        let offsets = wheel_offsets(&spec.cars);
+        for (axle, offset) in offsets.iter().enumerate() {
+            on_rail(track, axle, front - offset, 0.0)?;
+        }
+        let passage = [front - pre_roll, track.extent().1];
+        let (scale, seed) = (get(Parameter::IrregularityScale), get(Parameter::IrregularitySeed) as u64);
+        let irregularity = Irregularity::new(&spec.irregularity, scale, passage, Some(seed));
+        let points: Option<Vec<_>> = spec.rail_points.iter().map(|point| track.locate(point.x)).collect();
+        let supports = track.bridge_supports();
+        let means = StepMeans::new(supports, points.ok_or("a monitored point lies beyond the rail")?);
+        let state = Arc::new(State::rest(track.order(), spec.cars.len(), supports));
+        let cars: Vec<Car> = spec.cars.iter().map(Car::new).collect();
+        let laws = cars.iter().flat_map(|c| [Law::new(&spec.contact, c.axle_load); AXLES]).collect();
+        let wheels = Wheels::new(offsets, front, running, irregularity);
+        let system = TrainTrackSystem::new(prepared, cars, Contacts::new(laws), wheels);
+        Ok(Self {
+            steps: vec![system.matrices(newmark)?],
+            system,
+            start,
+            pre_roll,
+            input_meaning: get(Parameter::InputMeaning),
+            state,
+            pool: Pool::default(),
+            deck: vec![0.0; 2 * supports],
+            means,
+        })
+    }
+
+    /// The track it runs on.
+    pub fn prepared(&self) -> &Arc<Prepared> {
+        &self.system.prepared
+    }
+
+    /// Start of the run, s.
+    pub fn start(&self) -> f64 {
+        self.start
+    }
+
+    /// The state at the end of the last step.
+    pub fn state(&self) -> &Arc<State> {
+        &self.state
+    }
+
+    /// Puts back a saved state.
+    pub fn restore(&mut self, state: &Arc<State>) {
+        self.state = Arc::clone(state);
+    }
+
+    /// Fills in all outputs at time `t`, s.
+    pub fn outputs(&self, t: f64, out: &mut [f64]) {
+        View { system: &self.system, state: &self.state, means: &self.means, t: t - self.start }.write(out);
+    }
+
+    /// Static equilibrium for the deck motion [d…, ḋ…] (velocities ignored).
+    ///
+    /// # Errors
+    /// There is none, or it was not found.
+    pub fn equilibrium(&mut self, deck: &[f64]) -> Result<(), String> {
+        let mut state = State::clone(&self.state);
+        equilibrium(&mut self.system, 0.0, deck, &mut state)?;
+        self.replace(state);
+        Ok(())
+    }
+
+    /// From static equilibrium to the state of the start: rolls the cars if that is asked for.
+    ///
+    /// # Errors
+    /// The pre-roll cannot be done.
+    pub fn roll_in(&mut self) -> Result<(), String> {
+        if self.pre_roll > 0.0 {
+            let mut state = State::clone(&self.state);
+            pre_roll(&mut self.system, &self.steps[0], self.pre_roll, &mut state)?;
+            self.replace(state);
+        }
+        Ok(())
+    }
+
+    fn replace(&mut self, state: State) {
+        self.state = Arc::new(state);
+        self.means.rest(&self.state);
+    }
+
+    /// Position of the matrices for sub-steps of `h` seconds; factorises when the size is new.
+    fn matrices(&mut self, h: f64) -> Result<usize, String> {
+        let same = |m: &StepMatrices| (m.newmark.h - h).abs() <= SAME_STEP * h;
+        if let Some(i) = self.steps.iter().position(same) {
+            return Ok(i);
+        }
+        let nominal = self.steps[0].newmark;
+        let matrices = self.system.matrices(Newmark::new(nominal.gamma, nominal.beta, h))?;
+        if self.steps.len() == STEP_SIZES {
+            self.steps.remove(1);
+        }
+        self.steps.push(matrices);
+        Ok(self.steps.len() - 1)
+    }
+
+    /// One macro step from `t` to `t + h`: as many equal sub-steps as it takes to be no longer than the nominal step.
+    ///
+    /// # Errors
+    /// A sub-step cannot be done; the state is then that of the last one that could.
+    pub fn step(&mut self, inputs: &[f64], rates: Option<&[f64]>, t: f64, h: f64) -> Result<(), String> {
+        let nominal = self.steps[0].newmark.h;
+        let parts = (h / nominal * (1.0 - SAME_STEP)).ceil().max(1.0);
+        if parts > MOST_SUBSTEPS as f64 {
+            return Err(format!("a step of {h} s has more than {MOST_SUBSTEPS} parts of step_size = {nominal} s"));
+        }
+        let matrices = self.matrices(h / parts)?;
+        let t = t - self.start;
+        self.means.begin();
+        for part in 1..=parts as u64 {
+            let tau = h * (part as f64 / parts);
+            self.deck_at(inputs, rates, tau);
+            let mut buffer = self.pool.take(|| State::clone(&self.state));
+            let Some(new) = Arc::get_mut(&mut buffer) else { return Err("a state buffer is in use".into()) };
+            self.system.step(&self.steps[matrices], &self.state, new, &self.deck, t + tau)?;
+            self.means.add(self.system.track(), &self.state, new, parts);
+            self.pool.give(&buffer);
+            self.state = buffer;
+        }
+        Ok(())
+    }
+
+    /// Deck motion at `tau` seconds into the step, from what the inputs mean.
+    fn deck_at(&mut self, inputs: &[f64], rates: Option<&[f64]>, tau: f64) {
+        let (end_of_last, supports) = (&self.state.deck, self.means.mean.len());
+        for i in 0..inputs.len() {
+            self.deck[i] = match rates {
+                Some(rates) => inputs[i] + rates[i] * tau,
+                None if self.input_meaning == 2.0 => 2.0 * inputs[i] - end_of_last[i],
+                None if self.input_meaning == 1.0 && i < supports => inputs[i] + tau * inputs[i + supports],
+                None => inputs[i],
+            };
+        }
+    }
+}

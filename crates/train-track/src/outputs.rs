@@ -1,0 +1,249 @@
+//! Outputs of the subsystem: one list from which the interface follows and by which a state fills them in.
+
+use ttb_contract::names::{WORK, support};
+use ttb_contract::{Component, Variable};
+use ttb_scenario::spec::TrainTrackSpec;
+
+use crate::car::{AXLES, DOFS, wheel};
+use crate::coupled::TrainTrackSystem;
+use crate::state::State;
+use crate::step_means::StepMeans;
+
+/// What outputs are read from.
+pub struct View<'a> {
+    /// Matrices and the places of the wheels.
+    pub system: &'a TrainTrackSystem,
+    /// State at the end of the step.
+    pub state: &'a State,
+    /// What is known of the whole step.
+    pub means: &'a StepMeans,
+    /// Time after the start, s.
+    pub t: f64,
+}
+
+/// An output of every body of a kind, and how it is read.
+struct Output<R> {
+    name: &'static str,
+    unit: &'static str,
+    text: &'static str,
+    read: R,
+}
+
+/// What an output belongs to.
+#[derive(Clone, Copy)]
+enum Body {
+    Wheel,
+    Car,
+    RailPoint,
+    /// The subsystem as a whole: its outputs have no index.
+    Whole,
+}
+
+/// Outputs in the order of their value references.
+enum Group {
+    /// One output of all supports on the bridge; `feed_through`: it follows the deck's motion at the same instant.
+    Supports { output: Output<for<'a> fn(&'a View<'a>) -> &'a [f64]>, feed_through: bool },
+    /// All outputs of one body, then those of the next.
+    Each(Body, &'static [Output<fn(&View, usize) -> f64>]),
+}
+
+/// Supports carry vertical forces.
+const SUPPORT: Component = Component::Vertical;
+
+/// All outputs.
+const OUTPUTS: [Group; 6] = [
+    Group::Supports {
+        output: Output {
+            name: SUPPORT.force(),
+            unit: SUPPORT.unit(),
+            text: "Force of the support on the deck, down",
+            read: |view| &view.state.supports,
+        },
+        feed_through: true,
+    },
+    Group::Supports {
+        output: Output {
+            name: SUPPORT.mean_force(),
+            unit: SUPPORT.unit(),
+            text: "Mean of the force over the last step",
+            read: |view| &view.means.mean,
+        },
+        feed_through: false,
+    },
+    Group::Each(
+        Body::Wheel,
+        &[
+            Output {
+                name: "contact_force",
+                unit: "N",
+                text: "Contact force of the axle on the rail, weight included",
+                read: |view, axle| view.state.forces[axle],
+            },
+            Output {
+                name: "position",
+                unit: "m",
+                text: "Abscissa of the axle",
+                read: |view, axle| view.system.wheels.position(axle, view.t),
+            },
+            Output {
+                name: "displacement",
+                unit: "m",
+                text: "Displacement of the wheelset, down",
+                read: |view, axle| view.state.cars.u[wheel(axle)],
+            },
+            Output {
+                name: "rail_displacement",
+                unit: "m",
+                text: "Displacement of the rail under the wheel, down",
+                read: |view, axle| {
+                    view.state.cars.u[wheel(axle)] - view.state.delta[axle] - view.system.wheels.roughness[axle]
+                },
+            },
+        ],
+    ),
+    Group::Each(
+        Body::Car,
+        &[
+            Output {
+                name: "displacement",
+                unit: "m",
+                text: "Displacement of the car body's centre, down",
+                read: |view, car| view.state.cars.u[car * DOFS],
+            },
+            Output {
+                name: "acceleration",
+                unit: "m/s2",
+                text: "Acceleration of the car body's centre, down",
+                read: |view, car| view.state.cars.a[car * DOFS],
+            },
+            Output {
+                name: "pitch_acceleration",
+                unit: "rad/s2",
+                text: "Pitch acceleration of the car body, front down",
+                read: |view, car| view.state.cars.a[car * DOFS + 1],
+            },
+            Output {
+                name: "front_bogie_acceleration",
+                unit: "m/s2",
+                text: "Acceleration of the leading bogie, down",
+                read: |view, car| view.state.cars.a[car * DOFS + 2],
+            },
+            Output {
+                name: "rear_bogie_acceleration",
+                unit: "m/s2",
+                text: "Acceleration of the trailing bogie, down",
+                read: |view, car| view.state.cars.a[car * DOFS + 4],
+            },
+        ],
+    ),
+    Group::Each(
+        Body::RailPoint,
+        &[
+            Output {
+                name: "displacement",
+                unit: "m",
+                text: "Displacement of the rail, down",
+                read: |view, point| view.rail(point, &view.state.track.u),
+            },
+            Output {
+                name: "velocity",
+                unit: "m/s",
+                text: "Velocity of the rail, down",
+                read: |view, point| view.rail(point, &view.state.track.v),
+            },
+            Output {
+                name: "acceleration",
+                unit: "m/s2",
+                text: "Acceleration of the rail, down",
+                read: |view, point| view.rail(point, &view.state.track.a),
+            },
+            Output {
+                name: "peak_acceleration",
+                unit: "m/s2",
+                text: "Acceleration of the greatest amount at the ends of the last step's sub-steps",
+                read: |view, point| view.means.peaks[point],
+            },
+        ],
+    ),
+    Group::Each(
+        Body::Whole,
+        &[Output {
+            name: WORK,
+            unit: "J",
+            text: "Work of all support forces on the deck over the last step",
+            read: |view, _| view.means.work,
+        }],
+    ),
+];
+
+impl View<'_> {
+    /// Deflection of a monitored point of the rail, from u, u̇ or ü of the track.
+    fn rail(&self, point: usize, of: &[f64]) -> f64 {
+        self.system.track().deflection(&self.means.points[point], of)
+    }
+
+    /// Number of bodies of a kind.
+    fn count(&self, body: Body) -> usize {
+        match body {
+            Body::Wheel => self.state.forces.len(),
+            Body::Car => self.state.forces.len() / AXLES,
+            Body::RailPoint => self.means.points.len(),
+            Body::Whole => 1,
+        }
+    }
+
+    /// Fills in all outputs.
+    pub fn write(&self, mut out: &mut [f64]) {
+        for group in &OUTPUTS {
+            match group {
+                Group::Supports { output, .. } => {
+                    let values = (output.read)(self);
+                    out.split_off_mut(..values.len()).into_iter().for_each(|part| part.copy_from_slice(values));
+                }
+                Group::Each(body, outputs) => {
+                    let n = self.count(*body);
+                    let rows = out.split_off_mut(..n * outputs.len()).into_iter();
+                    for (i, row) in rows.flat_map(|part| part.chunks_exact_mut(outputs.len())).enumerate() {
+                        row.iter_mut().zip(*outputs).for_each(|(out, output)| *out = (output.read)(self, i));
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// The variables of all outputs.
+pub fn variables(spec: &TrainTrackSpec) -> Vec<Variable> {
+    let mut variables = Vec::new();
+    for group in &OUTPUTS {
+        match group {
+            Group::Supports { output, feed_through } => {
+                variables.extend((1..=spec.on_bridge.len()).map(|i| {
+                    let name = support(i, output.name);
+                    let variable = Variable::output(name, output.unit, output.text);
+                    Variable { feed_through: *feed_through, ..variable }
+                }));
+            }
+            Group::Each(body, outputs) => {
+                for holder in holders(*body, spec) {
+                    let of = |output: &Output<_>| {
+                        Variable::output(format!("{holder}{}", output.name), output.unit, output.text)
+                    };
+                    variables.extend(outputs.iter().map(of));
+                }
+            }
+        }
+    }
+    variables
+}
+
+/// How the names of the outputs of every body of a kind begin.
+fn holders(body: Body, spec: &TrainTrackSpec) -> Vec<String> {
+    let numbered = |what: &str, count: usize| (1..=count).map(|i| format!("{what}[{i}].")).collect();
+    match body {
+        Body::Wheel => numbered("wheel", spec.cars.len() * AXLES),
+        Body::Car => numbered("car", spec.cars.len()),
+        Body::RailPoint => spec.rail_points.iter().map(|point| format!("rail[{}].", point.name)).collect(),
+        Body::Whole => vec![String::new()],
+    }
+}
