@@ -3,22 +3,10 @@
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
 
+use crate::data::{CARS, FRAMES, Files, SPECTRA, TRACKS, TRAINS};
+pub use crate::data::{frame_names, spectrum_names, track_names, train_names};
 use crate::spec::Density;
 use crate::types::{Car, Frame, TrackType};
-
-/// Name and text of the files in one folder of `data/`.
-macro_rules! files {
-    ($folder:literal: $($name:literal),*) => {
-        &[$(($name, include_str!(concat!("../data/", $folder, "/", $name, ".json")))),*]
-    };
-}
-
-type Files = &'static [(&'static str, &'static str)];
-const CARS: Files = files!("cars": "ice3-motor", "ice3-trailer", "velaro-e", "manchester", "shinkansen-s300");
-const TRAINS: Files = files!("trains": "ice3");
-const TRACKS: Files = files!("tracks": "slab", "ballast-zhai", "ballast-two-layer");
-const SPECTRA: Files = files!("spectra": "german-low", "german-high", "sncf-good", "sncf-poor", "china-ballastless");
-const FRAMES: Files = files!("bridges": "cable-stayed-224");
 
 /// The scenario that runs when none is named.
 #[must_use]
@@ -36,26 +24,6 @@ struct Consist {
 #[derive(Deserialize)]
 struct Spectrum {
     density: Density,
-}
-
-/// Names that may stand in a train's list of cars: cars and whole trains.
-pub fn train_names() -> impl Iterator<Item = &'static str> {
-    CARS.iter().chain(TRAINS).map(|(name, _)| *name)
-}
-
-/// Names of track types.
-pub fn track_names() -> impl Iterator<Item = &'static str> {
-    TRACKS.iter().map(|(name, _)| *name)
-}
-
-/// Names of spectra.
-pub fn spectrum_names() -> impl Iterator<Item = &'static str> {
-    SPECTRA.iter().map(|(name, _)| *name)
-}
-
-/// Names of frames.
-pub fn frame_names() -> impl Iterator<Item = &'static str> {
-    FRAMES.iter().map(|(name, _)| *name)
 }
 
 /// The car of this name, or all cars of the train of this name.

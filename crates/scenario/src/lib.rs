@@ -5,6 +5,7 @@
 
 pub mod bundled;
 mod check;
+mod data;
 pub mod deck;
 mod density;
 mod json;
@@ -24,6 +25,7 @@ pub mod types;
 mod walk;
 
 pub use bundled::default_scenario_text;
-pub use load::{Checked, GRAVITY, from_str, load};
+pub use load::{Checked, from_str, load};
 pub use problem::{Problem, Problems, nearest};
 pub use schema::{model_schema, schema};
+pub use types::GRAVITY;

@@ -11,17 +11,11 @@ use std::path::Path;
 use sha2::{Digest, Sha256};
 
 use crate::pieces::Pieces;
-use crate::problem::{Problems, Report};
+use crate::problem::{MUST_FIT, Problems, Report};
 use crate::spec::{BridgeSpec, StructureSpec, TrainTrackSpec};
 use crate::step::Steps;
 use crate::types::{Car, CouplingSettings, Scenario};
 use crate::{check, json, resolve, schema, walk};
-
-/// Acceleration of gravity, m/s².
-pub const GRAVITY: f64 = 9.81;
-
-/// The rule against which nothing is ever found, as a test tries to show.
-pub(crate) const MUST_FIT: &str = "must fit the schema";
 
 /// A scenario without problems.
 #[derive(Clone, Debug, PartialEq)]

@@ -11,10 +11,10 @@
 use std::collections::HashSet;
 use std::path::Path;
 
-use crate::load::MUST_FIT;
-use crate::problem::{Problems, Report};
+use crate::check::model::check;
+use crate::problem::{MUST_FIT, Problems, Report};
 use crate::types::{Beams, Model, Shells, Springs, Trusses};
-use crate::{check, json, schema, walk};
+use crate::{json, schema, walk};
 
 /// Reads and checks a model file.
 ///
@@ -62,7 +62,7 @@ pub(crate) fn from_str(text: String, report: &mut Report) -> Option<Model> {
             // what has been read can be written
             let short = serde_json::to_value(skeleton(&model)).unwrap_or_default();
             walk::walk(&schema, &short, &HashSet::new(), report);
-            check::model(&model, "$", report);
+            check(&model, "$", report);
             Some(model)
         }
         Err(error) => {

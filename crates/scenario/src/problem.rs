@@ -6,6 +6,9 @@ use std::fmt;
 /// So many problems of one kind are listed; of the others only the number is told.
 const LISTED: usize = 20;
 
+/// The rule against which nothing is ever found, as a test tries to show.
+pub(crate) const MUST_FIT: &str = "must fit the schema";
+
 /// One broken rule.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Problem {

@@ -72,7 +72,7 @@ pub enum Profile {
         seed: u64,
         /// Shortest and longest wavelength, m.
         wavelengths: [f64; 2],
-        /// How it begins; `None`: over 20 m where the wheels' way begins.
+        /// How it begins; `None`: over 20 m where the wheels' passage begins.
         ramp: Option<Ramp>,
     },
     /// Samples (x, r), x increasing, m; constant outside.

@@ -1,4 +1,4 @@
-//! Where the wheels are: their places in the train, the way the train has gone, the abscissae they ever reach.
+//! Where the wheels are: their places in the train, the distance the train has run, the abscissae they ever reach.
 
 use crate::spec::TrainTrackSpec;
 use crate::types::Car;
@@ -31,23 +31,23 @@ pub fn speed_at(points: &[[f64; 2]], t: f64) -> f64 {
     }
 }
 
-/// Distance in m gone from time 0 to `t` ≥ 0 in s; exact for the piecewise linear speed.
+/// Distance in m run from time 0 to `t` ≥ 0 in s; exact for the piecewise linear speed.
 #[must_use]
 pub fn distance(points: &[[f64; 2]], t: f64) -> f64 {
     let inner = points.iter().map(|point| point[0]).filter(|time| (0.0..t).contains(time));
-    let mut gone = 0.0;
+    let mut run = 0.0;
     let mut from = 0.0;
     for to in inner.chain([t]) {
-        gone += 0.5 * (speed_at(points, from) + speed_at(points, to)) * (to - from);
+        run += 0.5 * (speed_at(points, from) + speed_at(points, to)) * (to - from);
         from = to;
     }
-    gone
+    run
 }
 
 impl TrainTrackSpec {
     /// The abscissae between which wheels are during the pre-roll and the run, m.
     #[must_use]
-    pub fn way(&self) -> [f64; 2] {
+    pub fn passage(&self) -> [f64; 2] {
         let last = wheel_offsets(&self.cars).last().copied().unwrap_or(0.0);
         [self.front_wheel - last - self.pre_roll, self.front_wheel + distance(&self.speed, self.end)]
     }
@@ -73,11 +73,11 @@ mod tests {
     }
 
     #[test]
-    fn the_way_of_a_piecewise_linear_speed_is_exact() {
+    fn the_distance_at_a_piecewise_linear_speed_is_exact() {
         let points = [[1.0, 10.0], [3.0, 20.0], [4.0, 0.0]];
-        for (t, v, way) in [(0.0, 10.0, 0.0), (1.0, 10.0, 10.0), (2.0, 15.0, 22.5), (3.0, 20.0, 40.0), (9.0, 0.0, 50.0)]
+        for (t, v, run) in [(0.0, 10.0, 0.0), (1.0, 10.0, 10.0), (2.0, 15.0, 22.5), (3.0, 20.0, 40.0), (9.0, 0.0, 50.0)]
         {
-            assert_eq!((speed_at(&points, t), distance(&points, t)), (v, way), "t = {t}");
+            assert_eq!((speed_at(&points, t), distance(&points, t)), (v, run), "t = {t}");
         }
         // points before the start count for the speed at the start only
         assert_eq!(distance(&[[-2.0, 0.0], [2.0, 20.0]], 2.0), 30.0);

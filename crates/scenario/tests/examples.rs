@@ -45,8 +45,8 @@ fn r1_is_the_case_of_the_design_note() {
     assert_eq!(r1.train_track.track.rail.bending_stiffness, 2.06e11 * 2.0 * 3.217e-5);
     assert_eq!(r1.train_track.speed, vec![[0.0, 250.0 / 3.6]]);
     assert!((r1.axle_load - 143_226.0).abs() < 1.0);
-    let way = r1.train_track.way();
-    assert!((way[0] - 10.125).abs() < 1e-12 && (way[1] - 106.388_889).abs() < 1e-6);
+    let passage = r1.train_track.passage();
+    assert!((passage[0] - 10.125).abs() < 1e-12 && (passage[1] - 106.388_889).abs() < 1e-6);
 }
 
 #[test]
@@ -58,7 +58,7 @@ fn the_default_is_the_file_among_the_examples() {
     let deck = Deck::new(&default.bridge.structure).unwrap();
     assert_eq!(deck.length, 288.0);
     // the whole train passes: at the end its last wheel is behind the bridge
-    let [rear, front] = [default.train_track.front_wheel - 193.3, default.train_track.way()[1]];
+    let [rear, front] = [default.train_track.front_wheel - 193.3, default.train_track.passage()[1]];
     assert!(front - 193.3 > 248.0 + 288.0 && rear > 0.0);
 }
 

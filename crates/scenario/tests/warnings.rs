@@ -40,7 +40,7 @@ fn waves_that_the_rail_cannot_follow() {
 }
 
 #[test]
-fn a_measured_profile_that_covers_a_part_of_the_way() {
+fn a_measured_profile_that_covers_a_part_of_the_passage() {
     let old = r#""spectrum", "spectrum": "german-low", "seed": 1, "wavelengths": [3, 80]"#;
     let found = warnings(&[(old, r#""measured", "file": "short.csv""#)]);
     assert_eq!(found, "the measured profile covers 0 to 50 m, the wheels -84.8 to 160.0 m: constant outside");

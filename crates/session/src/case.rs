@@ -73,7 +73,7 @@ pub fn settings(of: &types::CouplingSettings, substeps: usize) -> Settings {
         },
         tolerance: of.tolerance,
         max_iterations: of.max_iterations,
-        hold_forces: of.send == types::Send::Mean,
+        hold_forces: of.send == types::Sending::Mean,
         mean_forces: substeps > 1,
         on_failure: match of.on_failure {
             types::OnFailure::Stop => OnFailure::Stop,

@@ -10,7 +10,7 @@ use ttb_coupling::{Adapted, Coupling, Joined, Lacks};
 use ttb_fmi::isolate::Isolation;
 use ttb_fmi::{Another, Fmu, FmuError, FmuInstance, FmuSubsystem};
 use ttb_scenario::Checked;
-use ttb_scenario::types::Send;
+use ttb_scenario::types::Sending;
 use ttb_session::Case;
 
 use super::assign::{Assigned, Ends, assign, places, ranges};
@@ -55,7 +55,7 @@ pub struct Bridge {
     /// It.
     pub instance: FmuInstance,
     /// Makes another one, which shares nothing with it.
-    pub another: Box<dyn Fn() -> Result<FmuInstance, Error> + std::marker::Send>,
+    pub another: Box<dyn Fn() -> Result<FmuInstance, Error> + Send>,
     /// Whether there may be several in this process.
     pub several: bool,
     /// Whether to save and restore its state, if it can.
@@ -129,7 +129,7 @@ pub fn couple(
     train_track: FmuInstance,
     bridges: Vec<(Bridge, Assigned)>,
     case: &Case,
-    send: Send,
+    send: Sending,
     mut warnings: Vec<String>,
 ) -> Result<Connected, Error> {
     let settings = case.settings;
@@ -164,7 +164,7 @@ pub fn couple(
                 "{name} may exist only once in a process: nothing of it is tried before the run; --isolate makes it possible"
             ));
         }
-        if send == Send::Rate && !instance.can_interpolate() {
+        if send == Sending::Rate && !instance.can_interpolate() {
             return Err(Error::Input(format!(
                 "coupling.send is rate, but {name} cannot interpolate inputs: use auto or mean"
             )));

@@ -1,6 +1,6 @@
 //! Warnings: settings that are allowed, but known to spoil results (limits measured for this program).
 
-use super::layout::{Rail, Way};
+use super::places::{Passage, Rail};
 use crate::pieces::Pieces;
 use crate::problem::Report;
 use crate::resolve::Resolved;
@@ -13,19 +13,25 @@ const LONG_STEP: f64 = 2e-3;
 /// A wave needs this many rail elements.
 const ELEMENTS_PER_WAVE: f64 = 4.0;
 
-pub(super) fn give(pieces: &Pieces, resolved: &Resolved, rail: Option<&Rail>, way: Option<&Way>, report: &mut Report) {
+pub(super) fn give(
+    pieces: &Pieces,
+    resolved: &Resolved,
+    rail: Option<&Rail>,
+    passage: Option<&Passage>,
+    report: &mut Report,
+) {
     if let Some(step) = pieces.time.and_then(|time| time.step.given()).filter(|step| *step > LONG_STEP) {
         report.warn(format!("step {step} s: more than {LONG_STEP} s costs accuracy in accelerations"));
     }
-    if let (Some(rail), Some(way)) = (rail, way) {
-        margin(way.rear - rail.from, "begins", "behind the last wheel at the start", report);
-        margin(rail.to - way.end, "ends", "ahead of the leading wheel at the end of the run", report);
+    if let (Some(rail), Some(passage)) = (rail, passage) {
+        margin(passage.rear - rail.from, "begins", "behind the last wheel at the start", report);
+        margin(rail.to - passage.end, "ends", "ahead of the leading wheel at the end of the run", report);
     }
     if let (Some(rail), Some(profile)) = (rail, &resolved.profile) {
         waves(rail, profile, report);
     }
-    if let (Some(way), Some(Profile::Samples { x, .. })) = (way, &resolved.profile) {
-        let (from, to) = (way.rear - way.pre_roll, way.end);
+    if let (Some(passage), Some(Profile::Samples { x, .. })) = (passage, &resolved.profile) {
+        let (from, to) = (passage.rear - passage.pre_roll, passage.end);
         if let (Some(first), Some(last)) = (x.first(), x.last())
             && (from < *first || to > *last)
         {

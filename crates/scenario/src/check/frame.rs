@@ -2,12 +2,9 @@
 
 use std::collections::HashSet;
 
-use super::graph;
+use super::graph::{self, PATH, node};
 use crate::problem::{Report, nearest};
-use crate::types::{Fixity, Frame, Member, MemberKind, Node, Section};
-
-/// Where a scenario holds the frame.
-pub(super) const PATH: &str = "$.bridge.structure.frame";
+use crate::types::{Fixity, Frame, Member, MemberKind, Section};
 
 pub(super) fn check(frame: &Frame, report: &mut Report) {
     distinct("sections", frame.sections.iter().map(|section| section.name.as_str()), report);
@@ -41,11 +38,6 @@ pub(super) fn check(frame: &Frame, report: &mut Report) {
     }
     graph::check(frame, report);
     held(frame, report);
-}
-
-/// The node of this name.
-pub(super) fn node<'a>(frame: &'a Frame, name: &str) -> Option<&'a Node> {
-    frame.nodes.iter().find(|node| node.name == name)
 }
 
 /// Reports a name that is no node's.

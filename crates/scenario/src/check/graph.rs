@@ -1,8 +1,15 @@
 //! How a frame hangs together: the deck's path, unused nodes, separate parts, nodes free to spin.
 
-use super::frame::{PATH, node};
 use crate::problem::Report;
-use crate::types::{Fixity, Frame, Member, MemberKind};
+use crate::types::{Fixity, Frame, Member, MemberKind, Node};
+
+/// Where a scenario holds the frame.
+pub(super) const PATH: &str = "$.bridge.structure.frame";
+
+/// The node of this name.
+pub(super) fn node<'a>(frame: &'a Frame, name: &str) -> Option<&'a Node> {
+    frame.nodes.iter().find(|node| node.name == name)
+}
 
 pub(super) fn check(frame: &Frame, report: &mut Report) {
     deck(frame, report);

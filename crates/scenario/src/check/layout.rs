@@ -3,6 +3,7 @@
 use std::collections::HashSet;
 
 use super::advice;
+use super::places::{Passage, Rail};
 use crate::deck::Deck;
 use crate::pieces::Pieces;
 use crate::problem::Report;
@@ -17,43 +18,19 @@ const MOST_BAYS: usize = 1_000_000;
 /// So many of the shortest waves fit into the table from which a random irregularity is read.
 const MOST_WAVES: f64 = 250_000.0;
 /// A random irregularity has at least this length, m.
-const LEAST_WAY: f64 = 2048.0;
-
-/// The rail as laid.
-pub(super) struct Rail {
-    /// Abscissa of the first support, m.
-    pub from: f64,
-    /// Abscissa of the last support, m.
-    pub to: f64,
-    /// m.
-    pub spacing: f64,
-    /// Length of an element, m.
-    pub element: f64,
-}
-
-/// The train's run.
-pub(super) struct Way {
-    /// Last wheel at the start, m.
-    pub rear: f64,
-    /// Leading wheel at the start, m.
-    pub front: f64,
-    /// Leading wheel at the end, m.
-    pub end: f64,
-    /// Pre-roll, m.
-    pub pre_roll: f64,
-}
+const LEAST_PASSAGE: f64 = 2048.0;
 
 pub(super) fn check(pieces: &Pieces, resolved: &Resolved, report: &mut Report) {
     let rail = rail(pieces, resolved);
-    let way = way(pieces, resolved);
+    let passage = passage(pieces, resolved);
     if let (Some(rail), Some(track), Some(bridge), Some(structure)) =
         (&rail, &pieces.track, &pieces.bridge, &resolved.structure)
         && let Some(deck) = Deck::new(structure).filter(|deck| deck.length > 0.0)
     {
         bridge_on_track(rail, track, bridge, &deck, report);
     }
-    if let (Some(rail), Some(way)) = (&rail, &way) {
-        train_on_rail(rail, way, report);
+    if let (Some(rail), Some(passage)) = (&rail, &passage) {
+        train_on_rail(rail, passage, report);
     }
     points_on_rail(rail.as_ref(), &pieces.rail_points, report);
     if let (Some(train), Some(speed)) = (&pieces.train, &resolved.speed)
@@ -62,13 +39,13 @@ pub(super) fn check(pieces: &Pieces, resolved: &Resolved, report: &mut Report) {
     {
         report.problem("$.train.pre_roll", "a pre-roll needs a speed above 0 at the start", train.pre_roll);
     }
-    if let Some(way) = &way
+    if let Some(passage) = &passage
         && let Some(Irregularity::Spectrum { wavelengths: [short, _], .. }) = pieces.irregularity
         && short > 0.0
     {
-        resolvable(way, short, report);
+        resolvable(passage, short, report);
     }
-    advice::give(pieces, resolved, rail.as_ref(), way.as_ref(), report);
+    advice::give(pieces, resolved, rail.as_ref(), passage.as_ref(), report);
 }
 
 /// The rail, if its numbers make sense.
@@ -85,7 +62,7 @@ fn rail(pieces: &Pieces, resolved: &Resolved) -> Option<Rail> {
 }
 
 /// The train's run, if its numbers make sense.
-fn way(pieces: &Pieces, resolved: &Resolved) -> Option<Way> {
+fn passage(pieces: &Pieces, resolved: &Resolved) -> Option<Passage> {
     let (train, time) = (pieces.train.as_ref()?, pieces.time.as_ref()?);
     let (cars, speed) = (resolved.cars.as_ref()?, resolved.speed.as_ref()?);
     let sane = cars.iter().all(|car| car.length > 0.0 && car.bogie_distance > 0.0 && car.wheelbase > 0.0);
@@ -95,36 +72,36 @@ fn way(pieces: &Pieces, resolved: &Resolved) -> Option<Way> {
     }
     let rear = train.front_wheel - wheel_offsets(cars).last()?;
     let end = train.front_wheel + distance(speed, time.end);
-    Some(Way { rear, front: train.front_wheel, end, pre_roll: train.pre_roll })
+    Some(Passage { rear, front: train.front_wheel, end, pre_roll: train.pre_roll })
 }
 
-fn resolvable(way: &Way, shortest: f64, report: &mut Report) {
-    let limit = (way.end - way.rear + way.pre_roll).max(LEAST_WAY) / MOST_WAVES;
+fn resolvable(passage: &Passage, shortest: f64, report: &mut Report) {
+    let limit = (passage.end - passage.rear + passage.pre_roll).max(LEAST_PASSAGE) / MOST_WAVES;
     if shortest < limit {
-        let rule = format!("the shortest wavelength must be at least {limit:.3} m on a way of this length");
+        let rule = format!("the shortest wavelength must be at least {limit:.3} m on a passage of this length");
         report.problem("$.irregularity.wavelengths", rule, format!("{shortest} m"));
     }
 }
 
-fn train_on_rail(rail: &Rail, way: &Way, report: &mut Report) {
-    let (train, track) = (way.front - way.rear, rail.to - rail.from);
+fn train_on_rail(rail: &Rail, passage: &Passage, report: &mut Report) {
+    let (train, track) = (passage.front - passage.rear, rail.to - rail.from);
     if train > track {
         let rule = "the train must not be longer than the track";
         report.problem("$.track.bays", rule, format!("{train:.3} m from first to last wheel > {track:.3} m of rail"));
         return;
     }
-    if way.rear < rail.from {
+    if passage.rear < rail.from {
         let rule = "the whole train must stand on the rail at the start";
-        let found = format!("last wheel at {:.3} m, rail begins at {:.3} m", way.rear, rail.from);
+        let found = format!("last wheel at {:.3} m, rail begins at {:.3} m", passage.rear, rail.from);
         report.problem("$.train.front_wheel", rule, found);
     }
-    if way.front > rail.to {
+    if passage.front > rail.to {
         let rule = "the whole train must stand on the rail at the start";
-        let found = format!("leading wheel at {:.3} m, rail ends at {:.3} m", way.front, rail.to);
+        let found = format!("leading wheel at {:.3} m, rail ends at {:.3} m", passage.front, rail.to);
         report.problem("$.train.front_wheel", rule, found);
-    } else if way.end > rail.to {
+    } else if passage.end > rail.to {
         let rule = "the whole train must be on the rail until the end of the run";
-        let found = format!("leading wheel at {:.3} m at the end, rail ends at {:.3} m", way.end, rail.to);
+        let found = format!("leading wheel at {:.3} m at the end, rail ends at {:.3} m", passage.end, rail.to);
         report.problem("$.time.end", rule, found);
     }
 }

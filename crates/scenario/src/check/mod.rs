@@ -5,10 +5,9 @@ mod bridge;
 mod frame;
 mod graph;
 mod layout;
-mod model;
+pub(crate) mod model;
+mod places;
 mod run;
-
-pub(crate) use model::check as model;
 
 use crate::pieces::Pieces;
 use crate::problem::Report;

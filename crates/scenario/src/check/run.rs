@@ -1,7 +1,7 @@
 //! Rules inside the sections on train, track, irregularity and time.
 
 use crate::problem::Report;
-use crate::types::{CarChoice, CouplingSettings, Irregularity, Newmark, Rail, Send, Speed, Time};
+use crate::types::{CarChoice, CouplingSettings, Irregularity, Newmark, Rail, Sending, Speed, Time};
 
 /// More steps than any run has, and few enough to count exactly.
 const MOST_STEPS: f64 = 1e9;
@@ -79,7 +79,7 @@ pub(super) fn substeps(time: &Time, coupling: Option<&CouplingSettings>, report:
         let rule = "sub-steps need γ = 0.5, β = 0.25: the force on the bridge is a mean";
         report.problem("$.time.newmark", rule, format!("γ = {gamma}, β = {beta}; substeps: {found}"));
     }
-    if coupling.is_some_and(|coupling| coupling.send == Send::Rate) {
+    if coupling.is_some_and(|coupling| coupling.send == Sending::Rate) {
         let rule = "with sub-steps the force on the bridge is a mean and sent as such";
         report.problem("$.coupling.send", rule, format!("rate; substeps: {found}"));
     }

@@ -1,6 +1,7 @@
 //! Which nodes hang together over elements and ties, and whether the ground holds them.
 
-use super::{Index, Ties};
+use super::index::Index;
+use super::ties::Ties;
 use crate::types::Model;
 
 /// Nodes that hang together.

@@ -9,7 +9,7 @@
 use std::collections::HashMap;
 use std::fmt;
 
-use super::Index;
+use super::index::Index;
 use crate::types::{Freedom, Model};
 
 /// A node's motion: six times the node's position plus the freedom's.

@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::bundled::frame_names;
+use crate::data::frame_names;
 
 /// A material and cross-section of a frame member (both cable planes, both girders … summed into the plane).
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]

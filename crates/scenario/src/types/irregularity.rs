@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::bundled::spectrum_names;
+use crate::data::spectrum_names;
 
 /// How an irregularity begins.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -76,7 +76,7 @@ pub enum Irregularity {
         seed: u64,
         /// Shortest and longest wavelength, m.
         wavelengths: [f64; 2],
-        /// How it begins; absent: faded in over 20 m from where the wheels' way begins.
+        /// How it begins; absent: faded in over 20 m from where the wheels' passage begins.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         ramp: Option<Ramp>,
         /// Factor on r.

@@ -126,7 +126,8 @@ pub enum Predictor {
 /// How a trial force over the step is sent.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
-pub enum Send {
+#[schemars(rename = "Send")]
+pub enum Sending {
     /// As rate to a bridge that declares canInterpolateInputs, else as mean.
     #[default]
     Auto,
@@ -168,7 +169,7 @@ pub struct CouplingSettings {
     #[schemars(range(min = 1, max = 1000))]
     pub max_iterations: usize,
     /// How trial forces are sent.
-    pub send: Send,
+    pub send: Sending,
     /// Policy for a step that does not converge.
     pub on_failure: OnFailure,
 }
@@ -181,7 +182,7 @@ impl Default for CouplingSettings {
             predictor: Predictor::Linear,
             tolerance: 1e-6,
             max_iterations: 30,
-            send: Send::Auto,
+            send: Sending::Auto,
             on_failure: OnFailure::Stop,
         }
     }

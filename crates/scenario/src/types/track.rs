@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::bridge::NAME_PATTERN;
-use crate::bundled::track_names;
+use crate::data::track_names;
 
 /// Both rails as one beam.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]

@@ -3,8 +3,10 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::GRAVITY;
-use crate::bundled::train_names;
+use crate::data::train_names;
+
+/// Acceleration of gravity, m/s².
+pub const GRAVITY: f64 = 9.81;
 
 /// One car with 10 degrees of freedom. Springs and dashpots are those of a whole bogie (secondary) or a whole
 /// wheelset (primary), both sides summed.

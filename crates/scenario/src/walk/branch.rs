@@ -2,7 +2,7 @@
 
 use serde_json::Value;
 
-use super::{Walker, in_words, shown};
+use super::walker::{Walker, in_words, shown};
 use crate::problem::nearest;
 
 /// The branches of a schema that has some.

@@ -2,10 +2,10 @@
 
 use serde_json::{Number, Value};
 
-use super::{Walker, shown};
+use super::walker::{Walker, shown};
 use crate::types::NAME_PATTERN;
 
-impl<'a> Walker<'a> {
+impl Walker<'_> {
     pub(super) fn number(&mut self, schema: &Value, number: &Number, path: &str) {
         let Some(x) = number.as_f64() else { return };
         let limit = |keyword: &str| schema[keyword].as_f64();
@@ -22,7 +22,7 @@ impl<'a> Walker<'a> {
         }
     }
 
-    pub(super) fn array(&mut self, schema: &'a Value, list: &[Value], path: &str) {
+    pub(super) fn length(&mut self, schema: &Value, list: &[Value], path: &str) {
         let limit = |keyword: &str| schema[keyword].as_u64();
         let length = list.len() as u64;
         match (limit("minItems"), limit("maxItems")) {
@@ -36,11 +36,6 @@ impl<'a> Walker<'a> {
                 self.report.problem(path, format!("must have at most {high} entries"), length);
             }
             _ => {}
-        }
-        // a tuple has a schema for each of its entries
-        let each = schema["prefixItems"].as_array().map_or(&[][..], Vec::as_slice);
-        for (i, item) in list.iter().enumerate() {
-            self.check(each.get(i).unwrap_or(&schema["items"]), item, &format!("{path}[{i}]"));
         }
     }
 

@@ -6,22 +6,18 @@
 
 mod branch;
 mod limits;
+mod walker;
 
 use std::collections::HashSet;
 
 use serde_json::Value;
 
 use crate::problem::{Report, nearest};
+use walker::{Walker, in_words, shown};
 
 /// Reports what in `value` does not fit the schema `root`; paths in `reported` are known to be wrong already.
 pub(crate) fn walk(root: &Value, value: &Value, reported: &HashSet<String>, report: &mut Report) {
     Walker { root, reported, report }.check(root, value, "$");
-}
-
-struct Walker<'a> {
-    root: &'a Value,
-    reported: &'a HashSet<String>,
-    report: &'a mut Report,
 }
 
 impl<'a> Walker<'a> {
@@ -48,12 +44,6 @@ impl<'a> Walker<'a> {
         }
     }
 
-    /// Follows `$ref` to the definition it names.
-    fn resolve(&self, schema: &'a Value) -> &'a Value {
-        let target = schema["$ref"].as_str().and_then(|name| name.strip_prefix('#'));
-        target.and_then(|pointer| self.root.pointer(pointer)).unwrap_or(schema)
-    }
-
     fn object(&mut self, schema: &'a Value, map: &serde_json::Map<String, Value>, path: &str) {
         let Some(properties) = schema["properties"].as_object() else { return };
         for (key, value) in map {
@@ -73,32 +63,18 @@ impl<'a> Walker<'a> {
         }
     }
 
+    fn array(&mut self, schema: &'a Value, list: &[Value], path: &str) {
+        self.length(schema, list, path);
+        // a tuple has a schema for each of its entries
+        let each = schema["prefixItems"].as_array().map_or(&[][..], Vec::as_slice);
+        for (i, item) in list.iter().enumerate() {
+            self.check(each.get(i).unwrap_or(&schema["items"]), item, &format!("{path}[{i}]"));
+        }
+    }
+
     fn wrong_type(&mut self, schema: &Value, value: &Value, path: &str) {
         let wanted: Vec<_> = branch::types(schema).filter(|t| *t != "null").map(in_words).collect();
         self.report.problem(path, format!("must be {}", wanted.join(" or ")), shown(value));
-    }
-}
-
-/// A JSON type for people.
-fn in_words(kind: &str) -> &'static str {
-    match kind {
-        "object" => "an object",
-        "array" => "a list",
-        "number" => "a number",
-        "integer" => "a whole number",
-        "string" => "a text",
-        "boolean" => "true or false",
-        _ => "null",
-    }
-}
-
-/// A value for a message: JSON, cut where it gets long.
-fn shown(value: &Value) -> String {
-    const LONG: usize = 40;
-    let text = value.to_string();
-    match text.char_indices().nth(LONG) {
-        Some((cut, _)) => format!("{} …", &text[..cut]),
-        None => text,
     }
 }
 

@@ -167,7 +167,7 @@ fn faults_between_fields_are_all_found() {
                 &[("/irregularity/wavelengths", "[1e-6, 80]")],
                 &[(
                     "$.irregularity.wavelengths",
-                    "the shortest wavelength must be at least 0.008 m on a way of this length",
+                    "the shortest wavelength must be at least 0.008 m on a passage of this length",
                 )],
             ),
             case(

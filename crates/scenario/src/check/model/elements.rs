@@ -1,6 +1,6 @@
 //! Rules of elements: their nodes, sections and shapes.
 
-use super::Checker;
+use super::checker::Checker;
 use super::shape::{Point, add, difference, norm, parallel, spans};
 use crate::types::{Beams, Freedom, LineSection};
 
@@ -23,10 +23,10 @@ impl Checker<'_> {
             self.releases(list, &place);
             let [a, b] = list.offsets.unwrap_or_default();
             for (j, ends) in list.elements.iter().enumerate() {
-                let way = self.way(*ends, &place, j, [a, b]);
-                if let Some(way) = way.filter(|way| has_orientation && parallel(*way, list.orientation)) {
+                let axis = self.axis(*ends, &place, j, [a, b]);
+                if let Some(axis) = axis.filter(|axis| has_orientation && parallel(*axis, list.orientation)) {
                     let rule = "the orientation must not run along the beam";
-                    self.problem(format!("{place}.elements[{j}]"), rule, format!("both run along {way:?}"));
+                    self.problem(format!("{place}.elements[{j}]"), rule, format!("both run along {axis:?}"));
                 }
             }
         }
@@ -54,7 +54,7 @@ impl Checker<'_> {
             let place = format!("trusses[{i}]");
             self.line_section(&list.section, &place);
             for (j, ends) in list.elements.iter().enumerate() {
-                self.way(*ends, &place, j, [[0.0; 3]; 2]);
+                self.axis(*ends, &place, j, [[0.0; 3]; 2]);
             }
             let Some(tensions) = &list.tensions else { continue };
             if tensions.len() != list.elements.len() {
@@ -74,15 +74,15 @@ impl Checker<'_> {
     }
 
     /// From the first to the second end of an element, if it has two.
-    fn way(&mut self, ends: [u32; 2], place: &str, j: usize, offsets: [Point; 2]) -> Option<Point> {
+    fn axis(&mut self, ends: [u32; 2], place: &str, j: usize, offsets: [Point; 2]) -> Option<Point> {
         let [a, b] = [0, 1].map(|end| self.node(ends[end], || format!("{place}.elements[{j}][{end}]")));
-        let way = difference(add(b?, offsets[1]), add(a?, offsets[0]));
+        let axis = difference(add(b?, offsets[1]), add(a?, offsets[0]));
         let rule = if ends[0] == ends[1] {
             "the nodes of an element must differ"
-        } else if norm(way) == 0.0 {
+        } else if norm(axis) == 0.0 {
             "an element must connect two different places"
         } else {
-            return Some(way);
+            return Some(axis);
         };
         self.problem(format!("{place}.elements[{j}]"), rule, format!("{ends:?}"));
         None

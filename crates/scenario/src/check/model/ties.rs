@@ -2,7 +2,7 @@
 
 use std::collections::HashSet;
 
-use super::{Checker, in_words};
+use super::checker::{Checker, in_words};
 use crate::space::{Motion, Ties, motion};
 use crate::types::Freedom;
 
