@@ -30,9 +30,20 @@ pub(super) fn admits(schema: &Value, value: &Value) -> bool {
 }
 
 impl<'a> Walker<'a> {
+    /// All branches, those of a branch that only names others in its place: an enumeration or null is one list.
+    fn flatten(&self, branches: &'a [Value], into: &mut Vec<&'a Value>) {
+        for branch in branches.iter().map(|branch| self.resolve(branch)) {
+            match self::branches(branch) {
+                Some(inner) => self.flatten(inner, into),
+                None => into.push(branch),
+            }
+        }
+    }
+
     /// The branch that was meant; if that cannot be told, why not is reported.
     pub(super) fn choose(&mut self, branches: &'a [Value], value: &Value, path: &str) -> Option<&'a Value> {
-        let resolved: Vec<&Value> = branches.iter().map(|branch| self.resolve(branch)).collect();
+        let mut resolved = Vec::new();
+        self.flatten(branches, &mut resolved);
         if let Some(meant) = resolved.iter().find(|branch| branch.get("const").is_some_and(|c| c == value)) {
             return Some(meant);
         }
@@ -41,11 +52,16 @@ impl<'a> Walker<'a> {
             return None;
         }
         if let Some(text) = value.as_str()
-            && let Some(word) = resolved.iter().find_map(|branch| branch["const"].as_str())
+            && let words = resolved.iter().filter_map(|branch| branch["const"].as_str()).collect::<Vec<_>>()
+            && let [word, more @ ..] = words.as_slice()
         {
+            if !more.is_empty() {
+                self.not_among(words.iter().copied(), value, path);
+                return None;
+            }
             let others = resolved.iter().flat_map(|b| types(b)).filter(|kind| *kind != "string").map(in_words);
             let rule = others.fold(format!("must be {word}"), |rule, other| rule + " or " + other);
-            self.report.suggest(path, rule, shown(value), nearest(text, std::iter::once(word)));
+            self.report.suggest(path, rule, shown(value), nearest(text, std::iter::once(*word)));
             return None;
         }
         let fitting: Vec<&Value> = resolved.iter().copied().filter(|branch| admits(branch, value)).collect();

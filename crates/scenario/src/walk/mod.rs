@@ -6,6 +6,8 @@
 
 mod branch;
 mod limits;
+#[cfg(test)]
+mod samples;
 mod walker;
 
 use std::collections::HashSet;
@@ -80,12 +82,16 @@ impl<'a> Walker<'a> {
 
 #[cfg(test)]
 mod tests {
-    use std::collections::BTreeSet;
+    use std::collections::{BTreeSet, HashSet};
 
+    use serde::de::DeserializeOwned;
     use serde_json::Value;
 
+    use super::samples::samples;
+    use super::walk;
+    use crate::problem::Report;
     use crate::schema::{model_schema, schema};
-    use crate::types::NAME_PATTERN;
+    use crate::types::{Model, NAME_PATTERN, Scenario};
 
     const UNDERSTOOD: &str = "$ref oneOf anyOf const enum type properties required additionalProperties items \
         prefixItems minItems maxItems minimum maximum exclusiveMinimum pattern";
@@ -102,6 +108,42 @@ mod tests {
                 _ => {}
             }
         }
+    }
+
+    /// Every constant in a schema.
+    fn constants(schema: &Value, found: &mut BTreeSet<String>) {
+        match schema {
+            Value::Object(map) => map.iter().for_each(|(key, value)| match (key.as_str(), value) {
+                ("const", Value::String(text)) => drop(found.insert(text.clone())),
+                ("enum", Value::Array(all)) => found.extend(all.iter().filter_map(Value::as_str).map(str::to_owned)),
+                _ => constants(value, found),
+            }),
+            Value::Array(list) => list.iter().for_each(|value| constants(value, found)),
+            _ => {}
+        }
+    }
+
+    /// What the schema documents is accepted by the walk and by the types, value by value.
+    fn all_documented_values_are_accepted<T: DeserializeOwned>(schema: &Value) {
+        let samples = samples(schema, schema);
+        for sample in &samples {
+            let mut report = Report::new("sample");
+            walk(schema, sample, &HashSet::new(), &mut report);
+            assert!(report.problems.is_empty(), "{}\n{sample}", report.into_problems());
+            if let Err(error) = T::deserialize(sample) {
+                panic!("{error}: {sample}");
+            }
+        }
+        let (mut expected, text) = (BTreeSet::new(), Value::from(samples).to_string());
+        constants(schema, &mut expected);
+        let lost: Vec<_> = expected.into_iter().filter(|c| !text.contains(&format!("\"{c}\""))).collect();
+        assert!(lost.is_empty(), "never tried: {lost:?}");
+    }
+
+    #[test]
+    fn every_value_that_the_schemas_document_is_accepted() {
+        all_documented_values_are_accepted::<Scenario>(&schema());
+        all_documented_values_are_accepted::<Model>(&model_schema());
     }
 
     #[test]

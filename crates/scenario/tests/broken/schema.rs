@@ -88,6 +88,23 @@ fn faults_against_the_schema_are_all_found() {
                 &[("$.contact.law", "must be one of hertz, linear")],
             ),
             case(
+                "unknown format of matrices",
+                &[
+                    ("/bridge/structure", MATRICES),
+                    ("/bridge/points", "[]"),
+                    ("/bridge/structure/files/format", "\"label\""),
+                ],
+                &[(
+                    "$.bridge.structure.files.format",
+                    "must be one of matrix-market, triplets, labels, harwell-boeing",
+                )],
+            ),
+            case(
+                "a number for a format",
+                &[("/bridge/structure", MATRICES), ("/bridge/points", "[]"), ("/bridge/structure/files/format", "1")],
+                &[("$.bridge.structure.files.format", "must be a text")],
+            ),
+            case(
                 "unknown kind of irregularity",
                 &[("/irregularity/type", "\"spektrum\"")],
                 &[("$.irregularity.type", "must be one of none, harmonics, spectrum, measured")],
@@ -148,4 +165,20 @@ fn faults_against_the_schema_are_all_found() {
             ),
         ],
     );
+}
+
+const MATRICES: &str =
+    r#"{"type": "matrices", "length": 50, "files": {"stiffness": "K", "mass": "M", "supports": "S.csv"}}"#;
+
+/// All four are documented.
+#[test]
+fn every_format_of_matrices_is_accepted() {
+    for format in ["matrix-market", "triplets", "labels", "harwell-boeing"] {
+        let mut scenario: serde_json::Value = serde_json::from_str(BEAMS).unwrap();
+        scenario["bridge"]["structure"] = serde_json::from_str(MATRICES).unwrap();
+        scenario["bridge"]["structure"]["files"]["format"] = format.into();
+        scenario["bridge"]["points"] = serde_json::json!([]);
+        let found = ttb_scenario::from_str(&scenario.to_string(), &crate::folder(), format);
+        assert!(found.is_ok(), "{}", found.unwrap_err());
+    }
 }
