@@ -7,8 +7,8 @@ use std::path::{Path, PathBuf};
 use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, DateTime, ZipWriter};
 
-use crate::types::Structure;
-use crate::{STRUCTURE, write};
+use crate::types::{STRUCTURE, Structure};
+use crate::write::write;
 
 /// Content of an entry of the archive.
 #[derive(Clone, Copy, Debug)]
@@ -27,7 +27,7 @@ pub struct PackError {
     pub path: PathBuf,
     /// Read or written.
     pub what: &'static str,
-    /// Why.
+    /// What the system says.
     pub source: io::Error,
 }
 

@@ -3,7 +3,6 @@
 use std::collections::HashSet;
 
 use crate::problem::Report;
-use crate::read::refuse_parameters;
 use crate::tree::Element;
 use crate::types::{Component, Connector, Kind, Type};
 
@@ -29,6 +28,13 @@ pub fn components(system: &Element, report: &mut Report) -> Vec<Component> {
         }
     }
     components
+}
+
+/// Values for variables that nothing would set.
+pub fn refuse_parameters(element: &Element, report: &mut Report) {
+    if let Some(bindings) = element.child("ParameterBindings") {
+        report.problem(&bindings.place, "parameter bindings are not supported: set start values in the FMU");
+    }
 }
 
 fn component(element: &Element, report: &mut Report) -> Component {

@@ -16,12 +16,10 @@ pub use archive::{Content, PackError, pack};
 pub use problem::{Problem, Report};
 pub use read::read;
 pub use types::{
-    Annotation, BaseUnit, Component, Connection, Connector, Experiment, Kind, Structure, System, Type, Unit,
+    Annotation, BaseUnit, Component, Connection, Connector, Experiment, Kind, STRUCTURE, Structure, System, Type, Unit,
 };
 pub use write::write;
 
-/// The document every archive has.
-pub const STRUCTURE: &str = "SystemStructure.ssd";
 /// Folder of the components' files.
 pub const RESOURCES: &str = "resources";
 /// Folder of what is not the standard's, below a reversed domain name.

@@ -3,7 +3,7 @@
 //! The order of elements and what is not needed here (geometry, enumerations, signal dictionaries that nobody refers to)
 //! are passed over; what would change a result and is not understood is refused.
 
-use crate::components::components;
+use crate::components::{components, refuse_parameters};
 use crate::problem::Report;
 use crate::tree::{Element, tree};
 use crate::types::{Annotation, BaseUnit, Connection, Experiment, Structure, System, Unit};
@@ -45,13 +45,6 @@ fn system(element: &Element, report: &mut Report) -> System {
         description: element.attribute("description").map(str::to_string),
         components: components(element, report),
         connections: element.children_of("Connections").iter().filter_map(|e| connection(e, report)).collect(),
-    }
-}
-
-/// Values for variables that nothing would set.
-pub(crate) fn refuse_parameters(element: &Element, report: &mut Report) {
-    if let Some(bindings) = element.child("ParameterBindings") {
-        report.problem(&bindings.place, "parameter bindings are not supported: set start values in the FMU");
     }
 }
 

@@ -1,5 +1,8 @@
 //! A system structure, as far as a co-simulation of FMUs wants to know.
 
+/// The document every archive has.
+pub const STRUCTURE: &str = "SystemStructure.ssd";
+
 /// The content of a SystemStructure.ssd.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Structure {
@@ -13,7 +16,7 @@ pub struct Structure {
     pub system: System,
     /// Units the connectors name.
     pub units: Vec<Unit>,
-    /// Times.
+    /// Start and end of a run, and settings.
     pub experiment: Experiment,
 }
 
@@ -52,7 +55,7 @@ pub struct Component {
 pub struct Connector {
     /// Its name, the variable's.
     pub name: String,
-    /// Direction.
+    /// Whether values come in or go out.
     pub kind: Kind,
     /// Type; absent where the document leaves it to the component's file.
     pub kind_of_value: Option<Type>,
@@ -71,7 +74,7 @@ pub enum Kind {
     Parameter,
     /// Follows from parameters.
     CalculatedParameter,
-    /// Either.
+    /// Either an input or an output.
     InOut,
 }
 
@@ -121,14 +124,14 @@ pub struct Unit {
     pub base: BaseUnit,
 }
 
-/// Powers of the base units, and the way to them.
+/// Powers of the base units, with factor and offset to them.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BaseUnit {
     /// Powers of kg, m, s, A, K, mol, cd, rad.
     pub powers: [i32; 8],
-    /// Scale.
+    /// Factor to the base units.
     pub factor: f64,
-    /// Shift.
+    /// Offset in the base units.
     pub offset: f64,
 }
 

@@ -11,7 +11,7 @@ use crate::types::{Annotation, BaseUnit, Component, Connection, Connector, Kind,
 
 type Xml = Writer<Vec<u8>>;
 
-/// The text of SystemStructure.ssd. The date in it is fixed, so that the same structure gives the same text.
+/// The text of SystemStructure.ssd. No date stands in it: the same structure gives the same text.
 ///
 /// # Errors
 /// None in practice: it is written to memory.
@@ -35,7 +35,6 @@ pub fn write(structure: &Structure) -> io::Result<String> {
         .with_attribute(("name", structure.name.as_str()))
         .with_attributes(structure.description.as_deref().map(|text| ("description", text)))
         .with_attributes(structure.tool.as_deref().map(|tool| ("generationTool", tool)))
-        .with_attribute(("generationDateAndTime", "2026-01-01T00:00:00Z"))
         .write_inner_content(|xml| {
             system(xml, &structure.system)?;
             if !structure.units.is_empty() {
