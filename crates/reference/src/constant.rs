@@ -14,7 +14,7 @@ use ttb_bridge::law::Law;
 use ttb_dynamics::newmark::{Motion, Newmark};
 use ttb_sparse::Assembly;
 
-use crate::ReferenceError;
+use crate::error::ReferenceError;
 use crate::sweeps::Sweeps;
 use crate::whole::{Whole, dot};
 

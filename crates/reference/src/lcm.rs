@@ -12,7 +12,7 @@
 
 use ttb_train_track::car::wheel;
 
-use crate::stepper::Trial;
+use crate::trial::Trial;
 
 /// Trials of a step at most.
 const MOST: usize = 500;
@@ -42,7 +42,7 @@ impl Lcm {
         for (force, last) in forces.iter_mut().zip(&mut self.last) {
             (*force, *last) = (2.0 * *force - *last, *force);
         }
-        let mut first = None;
+        let mut first: Option<f64> = None;
         for n in 1..=MOST {
             trial.press(forces);
             let (mut missing, mut size) = (0.0, 0.0);

@@ -15,33 +15,23 @@
 
 pub mod assembly;
 pub mod constant;
+pub mod error;
+mod layout;
 pub mod lcm;
 pub mod monolithic;
+pub mod outputs;
 pub mod schur;
 pub mod scm;
+mod start;
 pub mod stepped;
 pub mod stepper;
 pub mod sweeps;
+pub mod trial;
 pub mod wheels;
 pub mod whole;
 
-pub use monolithic::{History, run};
+pub use error::ReferenceError;
+pub use monolithic::{History, Monolithic, run};
 pub use stepped::Stepped;
 pub use stepper::{Method, StepReport, Stepper};
 pub use whole::Whole;
-
-/// Why a reference method cannot go on.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum ReferenceError {
-    /// The case is none that these methods solve.
-    #[error("{0}")]
-    Case(String),
-    /// A step failed.
-    #[error("the step to t = {t} s: {what}")]
-    Step {
-        /// End of the step, s.
-        t: f64,
-        /// What happened.
-        what: String,
-    },
-}

@@ -10,7 +10,7 @@
 use ttb_train_track::car::wheel;
 use ttb_train_track::contact::Contacts;
 
-use crate::stepper::Trial;
+use crate::trial::Trial;
 use crate::wheels::Wheels;
 
 /// Contacts of all axles.

@@ -8,10 +8,11 @@
 //! T is the contacts' stiffness where the step begins: one factor a step serves all iterations on the forces (modified
 //! Newton's method), unless a wheel leaves or meets the rail. To be fair to it: K̂ is assembled once, the order of
 //! elimination found once (cars last, before them the rail, so that contacts fill nothing in), the factor's pattern
-//! analysed once for each stretch of the way with room for all entries met there, the factor's memory reused, and the
+//! analysed once for each stretch of the passage with room for all entries met there, the factor's memory reused, and the
 //! iterations sweep only over the part of the factor that rail and cars reach.
 
 use faer::sparse::{SparseColMatRef, SymbolicSparseColMat};
+use ttb_contract::finite::larger;
 use ttb_sparse::{Factor, Layout, Symbolic};
 
 use crate::constant;
@@ -21,7 +22,7 @@ use crate::whole::Whole;
 use ttb_dynamics::newmark::Newmark;
 use ttb_train_track::car::wheel;
 
-/// The factor's pattern has room for so many metres of way.
+/// The factor's pattern has room for so many metres of the passage.
 const STRETCH: f64 = 10.0;
 /// Iterations with one factor, and factors of a step.
 const ITERATIONS: usize = 12;
@@ -47,10 +48,10 @@ pub struct Scm {
     load: Vec<(u32, f64)>,
 }
 
-/// Pattern and factor for a stretch of way.
+/// Pattern and factor for a stretch of the passage.
 struct Stretch {
     /// Abscissae of the leading axle between which it serves.
-    way: [f64; 2],
+    between: [f64; 2],
     pattern: SymbolicSparseColMat<u32>,
     /// K̂ on this pattern, and with the contacts of the step.
     constant: Vec<f64>,
@@ -136,9 +137,9 @@ impl Scm {
         let layout = Layout { order: self.order.clone(), ..Layout::default() };
         let symbolic = Symbolic::new(pattern.as_ref(), &layout).map_err(|e| e.to_string())?;
         let along = wheels.abscissa(0);
-        let way = [along, along + STRETCH];
+        let between = [along, along + STRETCH];
         self.stretch =
-            Some(Stretch { way, pattern, values: to_values.clone(), constant: to_values, symbolic, sweeps: None });
+            Some(Stretch { between, pattern, values: to_values.clone(), constant: to_values, symbolic, sweeps: None });
         Ok(())
     }
 
@@ -157,7 +158,7 @@ impl Scm {
         u: &mut [f64],
     ) -> Result<Work, String> {
         let along = wheels.abscissa(0);
-        if self.stretch.as_ref().is_none_or(|s| along < s.way[0] || along > s.way[1]) {
+        if self.stretch.as_ref().is_none_or(|s| along < s.between[0] || along > s.between[1]) {
             self.analyse(whole, wheels)?;
         }
         let mut work = Work::default();
@@ -195,7 +196,7 @@ impl Scm {
                     let linear = forces[axle] + self.tangents[axle] * (s - approach[axle]);
                     (approach[axle], forces[axle]) = (s, wheels.force(axle, s).0);
                     let off = (forces[axle] - linear).abs();
-                    missing = if off.is_nan() { f64::NAN } else { missing.max(off) };
+                    missing = larger(missing, off);
                 }
                 if missing <= self.tolerance {
                     sweeps.finish(&self.load, u);

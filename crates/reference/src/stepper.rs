@@ -7,14 +7,15 @@
 //! ```
 
 use ttb_dynamics::newmark::{Motion, Newmark};
-use ttb_train_track::car::{AXLES, DOFS, Matrix10, add_wheel_compliance, press};
+use ttb_train_track::car::{AXLES, DOFS, Matrix10};
 
-use crate::ReferenceError;
 use crate::constant::{History, factorised};
+use crate::error::ReferenceError;
 use crate::lcm::Lcm;
 use crate::schur::Schur;
 use crate::scm::Scm;
 use crate::sweeps::Sweeps;
+use crate::trial::Trial;
 use crate::wheels::Wheels;
 use crate::whole::{State, Whole, dot};
 
@@ -232,63 +233,5 @@ impl State {
         let law = &wheels.laws[axle];
         let delta = law.static_approach();
         delta + wheels.points[axle].local_compliance * law.force(delta).0
-    }
-}
-
-/// Track, bridge and cars under trial forces, within a step.
-pub struct Trial<'a> {
-    /// The case.
-    pub whole: &'a Whole,
-    /// The wheels at the step's end.
-    pub wheels: &'a Wheels,
-    sweeps: &'a mut Sweeps,
-    cars: &'a [Matrix10],
-    /// q_free.
-    pub cars_free: &'a [f64],
-    moved: &'a mut Vec<f64>,
-    load: &'a mut Vec<(u32, f64)>,
-}
-
-impl Trial<'_> {
-    /// Track and bridge under a load; the rail can then be looked at.
-    pub fn look(&mut self, load: &[(u32, f64)]) {
-        self.sweeps.look(load);
-    }
-
-    /// Track, bridge and cars under forces of the wheels.
-    pub fn press(&mut self, forces: &[f64]) {
-        self.wheels.load(&self.whole.track, forces, self.load);
-        self.sweeps.look(self.load);
-        self.press_cars(forces);
-    }
-
-    /// The cars alone.
-    pub fn press_cars(&mut self, forces: &[f64]) {
-        press(self.cars, self.cars_free, forces, self.moved);
-    }
-
-    /// A degree of freedom of the cars.
-    pub fn car(&self, dof: usize) -> f64 {
-        self.moved[dof]
-    }
-
-    /// Deflection of the rail under an axle, without the local part.
-    pub fn rail(&self, axle: usize) -> f64 {
-        let point = &self.wheels.points[axle];
-        let dofs = self.whole.track.element_dofs(point.element);
-        dofs.iter().zip(point.row).map(|(dof, n)| n * self.sweeps.at(*dof)).sum()
-    }
-
-    /// B K̂_c⁻¹ Bᵀ + N K̂⁻¹ Nᵀ by rows.
-    pub fn compliance(&mut self, y: &mut [f64]) {
-        let n = self.wheels.len();
-        let row = |axle: usize| {
-            let point = &self.wheels.points[axle];
-            let dofs = self.whole.track.element_dofs(point.element);
-            dofs.iter().zip(point.row).map(|(dof, n)| (*dof as u32, n)).collect()
-        };
-        let rows: Vec<Vec<(u32, f64)>> = (0..n).map(row).collect();
-        self.sweeps.compliance(&rows, y);
-        add_wheel_compliance(self.cars, y);
     }
 }

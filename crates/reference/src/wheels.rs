@@ -23,7 +23,7 @@ pub struct Wheels {
 }
 
 impl Wheels {
-    /// From the laws, distances behind the leading axle, its abscissa at t = 0, the way run and the rail's profile.
+    /// From the laws, distances behind the leading axle, its abscissa at t = 0, the distance run and the rail's profile.
     pub fn new(laws: Vec<Law>, offsets: Vec<f64>, front: f64, running: Running, irregularity: Irregularity) -> Self {
         let n = laws.len();
         Self {

@@ -9,7 +9,7 @@ use ttb_bridge::assembled::Assembled;
 use ttb_bridge::deck::Row;
 use ttb_bridge::law::Law;
 use ttb_bridge::{imported, law, plane, space};
-use ttb_contract::Instance;
+use ttb_contract::finite::larger;
 use ttb_dynamics::newmark::Motion;
 use ttb_scenario::spec::{BridgeSpec, StructureSpec, TrainTrackSpec};
 use ttb_scenario::travel::wheel_offsets;
@@ -17,15 +17,14 @@ use ttb_scenario::types::{Damping, Newmark, Spring, Support};
 use ttb_sparse::Layout;
 use ttb_sparse::Pencil;
 use ttb_sparse::modes::lowest;
-use ttb_train_track::TrainTrack;
 use ttb_train_track::car::{AXLES, Car};
 use ttb_train_track::law::Law as Contact;
 use ttb_train_track::profile::Irregularity;
 use ttb_train_track::speed::Running;
 use ttb_train_track::track::{FastenerFactors, Track};
 
-use crate::ReferenceError;
-use crate::constant;
+use crate::error::ReferenceError;
+use crate::layout::layout;
 use crate::wheels::Wheels;
 
 /// The bridge in all its degrees of freedom.
@@ -78,11 +77,11 @@ pub struct Whole {
 }
 
 impl Whole {
-    /// Assembles a case and finds its static equilibrium; the cars are pre-rolled as in the product.
+    /// Assembles a case, undeformed and at rest.
     ///
     /// # Errors
     /// Modal damping, matrices that cannot be factorised, data that a subsystem refuses.
-    pub fn new(train: &TrainTrackSpec, spec: &BridgeSpec) -> Result<Self, ReferenceError> {
+    pub(crate) fn assemble(train: &TrainTrackSpec, spec: &BridgeSpec) -> Result<Self, ReferenceError> {
         let assembled = match &spec.structure {
             StructureSpec::Beams { .. } | StructureSpec::Frame(_) => plane::assemble(spec),
             StructureSpec::FiniteElements(model) => space::assemble(model, &spec.supports, &spec.points),
@@ -100,12 +99,12 @@ impl Whole {
         let law = law(&spec.damping, &pencil)?;
         let points = points.iter().map(|p| monitors[p.motion].clone()).collect();
         let cars: Vec<Car> = train.cars.iter().map(Car::new).collect();
-        let axle_load = cars.iter().map(|c| c.axle_load).fold(0.0, f64::max);
+        let axle_load = cars.iter().map(|c| c.axle_load).fold(0.0, larger);
         let laws = cars.iter().flat_map(|c| [Contact::new(&train.contact, c.axle_load); AXLES]).collect();
         let length: f64 = train.cars.iter().map(|c| c.length).sum();
         let before = if train.pre_roll > 0.0 { train.pre_roll + length } else { 0.0 };
-        let way = [train.front_wheel - before, track.extent().1];
-        let irregularity = Irregularity::new(&train.irregularity, train.irregularity_scale, way, None);
+        let passage = [train.front_wheel - before, track.extent().1];
+        let irregularity = Irregularity::new(&train.irregularity, train.irregularity_scale, passage, None);
         let running = Running::new(&train.speed, 1.0);
         let wheels = Wheels::new(laws, wheel_offsets(&train.cars), train.front_wheel, running, irregularity);
         let (n, ndof) = (track.order(), pencil.ndof());
@@ -119,9 +118,7 @@ impl Whole {
         };
         let bridge = Bridge { pencil, law, supports, points };
         let (base, newmark) = (base(&train.track.support), train.newmark);
-        let mut whole = Self { track, base, cars, wheels, bridge, newmark, layout, start, axle_load };
-        whole.rest(train)?;
-        Ok(whole)
+        Ok(Self { track, base, cars, wheels, bridge, newmark, layout, start, axle_load })
     }
 
     /// Degrees of freedom of track and bridge.
@@ -138,41 +135,6 @@ impl Whole {
     pub fn deck(&self, u: &[f64]) -> Vec<f64> {
         self.bridge.supports.iter().map(|row| dot(row, u)).collect()
     }
-
-    /// Static equilibrium. Every axle carries its static load then, whatever the rail looks like: each car's ten equations
-    /// leave no choice. The train–track subsystem of the product adds the cars' state, pre-roll included.
-    fn rest(&mut self, train: &TrainTrackSpec) -> Result<(), ReferenceError> {
-        self.wheels.place(&self.track, 0.0).map_err(case)?;
-        let n = self.track.order();
-        let pencil = constant::equations(self, 0.0, 0.0).finish_with(&self.layout).map_err(case)?;
-        if let Some(order) = pencil.order() {
-            self.layout.order = order.to_vec();
-        }
-        let factor = pencil.factor(1.0, 0.0, 0.0).map_err(case)?;
-        drop(pencil);
-        let mut u = vec![0.0; self.order()];
-        let loads = self.cars.iter().flat_map(|car| [car.axle_load; AXLES]);
-        for (point, load) in self.wheels.points.iter().zip(loads) {
-            self.track.add_force(point, load, &mut u[..n]);
-        }
-        factor.solve_in_place(&mut u, &mut vec![0.0; self.order()]);
-        let mut motion = self.deck(&u[n..]);
-        motion.resize(2 * motion.len(), 0.0);
-        let mut instance = Instance::new(TrainTrack::new(train.clone()).map_err(case)?);
-        let inputs: Vec<u32> = (0..motion.len() as u32).collect();
-        instance.enter_initialization(0.0).map_err(case)?;
-        instance.set(&inputs, &motion).map_err(case)?;
-        instance.exit_initialization().map_err(case)?;
-        let state = ttb_contract::Model::save(instance.model());
-        self.start.track = state.track.clone();
-        self.start.cars = state.cars.clone();
-        self.start.bridge.u = u.split_off(n);
-        self.start.forces.clone_from(&state.forces);
-        for (axle, approach) in self.start.approach.iter_mut().enumerate() {
-            *approach = state.delta[axle] + self.wheels.points[axle].local_compliance * state.forces[axle];
-        }
-        Ok(())
-    }
 }
 
 /// A row times a vector.
@@ -180,7 +142,7 @@ pub fn dot(row: &Row, u: &[f64]) -> f64 {
     row.iter().map(|(dof, weight)| weight * u[*dof as usize]).sum()
 }
 
-fn case(why: impl std::fmt::Display) -> ReferenceError {
+pub(crate) fn case(why: impl std::fmt::Display) -> ReferenceError {
     ReferenceError::Case(why.to_string())
 }
 
@@ -209,34 +171,4 @@ fn law(damping: &Damping, pencil: &Pencil) -> Result<Law, ReferenceError> {
         count => lowest(pencil, &pencil.factor(1.0, 0.0, 0.0).map_err(case)?, count).map_err(case)?.omega2,
     };
     law::law(damping, &omega2, ratio, 1.0, 1.0).map_err(case)
-}
-
-/// Nodes, their places and what to eliminate last, the rail: the sweeps of a trial then stay short.
-fn layout(train: &TrainTrackSpec, track: &Track, bridge: &Assembled) -> Layout {
-    let n = track.order() as u32;
-    let bays = train.bays + 1;
-    let stride = (track.order() - 1) / train.bays.max(1);
-    let bridge_nodes = bridge.node_of.iter().max().map_or(0, |node| node + 1).max(bridge.nodes.len() as u32);
-    let bay_of = |dof: u32| (dof as usize / stride.max(1)).min(bays - 1) as u32;
-    let node_of = (0..n).map(|dof| bridge_nodes + bay_of(dof)).chain(bridge.node_of.iter().copied()).collect();
-    let last = (0..track.nodes()).flat_map(|node| [track.node_dof(node), track.node_dof(node) + 1]);
-    let mut place = bridge.nodes.clone();
-    let under =
-        |row: &Row| row.first().and_then(|(dof, _)| bridge.nodes.get(*bridge.node_of.get(*dof as usize)? as usize));
-    let known: Option<Vec<[f64; 3]>> = bridge.supports.iter().map(|row| under(row).copied()).collect();
-    if let (Some(known), [first, .., last]) = (known.filter(|known| known.len() > 1), &train.on_bridge[..]) {
-        // Off the bridge the track goes on as straight as it lies on it.
-        let (a, b) = (known[0], known[known.len() - 1]);
-        let along: [f64; 3] = std::array::from_fn(|i| (b[i] - a[i]) / (*last - *first) as f64);
-        place.extend((0..bays).map(|bay| {
-            let at = train.on_bridge.partition_point(|on| *on < bay).min(known.len() - 1);
-            let ahead = bay as f64 - train.on_bridge[at] as f64;
-            std::array::from_fn(|i| known[at][i] + ahead * along[i])
-        }));
-    } else {
-        place.clear();
-    }
-    // A light bridge costs nothing, and the rail left for last would fill.
-    let last = if bridge.equations.ndof() > track.order() { last.map(|dof| dof as u32).collect() } else { Vec::new() };
-    Layout { node_of, place, last, order: Vec::new() }
 }
