@@ -11,11 +11,11 @@ use super::model::Model;
 #[serde(tag = "type", rename_all = "kebab-case")]
 #[schemars(deny_unknown_fields)]
 pub enum Damping {
-    /// None.
+    /// No damping.
     None,
     /// C = αM + βK with the ratio met at two frequencies.
     Rayleigh {
-        /// ζ.
+        /// Damping ratio ζ, of 1.
         #[schemars(range(min = 0, max = 1))]
         ratio: f64,
         /// The two frequencies.
@@ -23,10 +23,10 @@ pub enum Damping {
     },
     /// The same ratio in the lowest modes, nothing in the others.
     Modal {
-        /// ζ.
+        /// Damping ratio ζ, of 1.
         #[schemars(range(min = 0, max = 1))]
         ratio: f64,
-        /// Number of modes.
+        /// Number of damped modes.
         #[schemars(range(min = 1, max = 1000))]
         modes: usize,
     },
@@ -93,16 +93,16 @@ pub enum OverBearings {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[schemars(deny_unknown_fields)]
 pub struct Span {
-    /// m.
+    /// Length of the span, m.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub length: f64,
-    /// EI, N m².
+    /// Bending stiffness EI, N m².
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub bending_stiffness: f64,
-    /// kg/m.
+    /// Mass per length, dead loads included, kg/m.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub mass: f64,
-    /// κGA, N; absent: Euler–Bernoulli, present: Timoshenko.
+    /// Shear stiffness κGA, N; absent: Euler–Bernoulli, present: Timoshenko.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub shear_stiffness: Option<f64>,
@@ -184,12 +184,12 @@ pub struct Bridge {
     pub at: f64,
     /// What carries.
     pub structure: Structure,
-    /// Damping.
+    /// Damping of the bridge.
     pub damping: Damping,
-    /// Monitored points.
+    /// Points whose motion is recorded.
     #[serde(default)]
     pub points: Vec<Point>,
-    /// Track supports over inner bearings.
+    /// Where the track's supports over inner bearings go.
     #[serde(default)]
     pub over_bearings: OverBearings,
     /// Solve in this many lowest modes instead of all degrees of freedom.

@@ -9,19 +9,19 @@ use crate::data::frame_names;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[schemars(deny_unknown_fields)]
 pub struct Section {
-    /// Name.
+    /// Name, by which members refer to it.
     pub name: String,
-    /// E, N/m².
+    /// Modulus of elasticity E, N/m².
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub modulus: f64,
-    /// A, m².
+    /// Cross-sectional area A, m².
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub area: f64,
-    /// I, m⁴; not needed for trusses.
+    /// Second moment of area I, m⁴; not needed for trusses.
     #[serde(default)]
     #[schemars(range(min = 0))]
     pub inertia: f64,
-    /// κGA, N; absent: Euler–Bernoulli, present: Timoshenko.
+    /// Shear stiffness κGA, N; absent: Euler–Bernoulli, present: Timoshenko.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub shear_stiffness: Option<f64>,
@@ -34,11 +34,11 @@ pub struct Section {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[schemars(deny_unknown_fields)]
 pub struct Node {
-    /// Name.
+    /// Name, by which members and points refer to it.
     pub name: String,
-    /// Along the track, from the bridge's begin, m.
+    /// Place along the track, from the bridge's begin, m.
     pub x: f64,
-    /// Down, from the deck's axis, m.
+    /// Place downwards, from the deck's axis, m.
     pub z: f64,
     /// Fixed directions, a list of `x`, `z`, `rotation`; absent: free.
     #[serde(default)]
@@ -51,9 +51,9 @@ pub struct Node {
 pub enum Fixity {
     /// Along the track.
     X,
-    /// Vertical.
+    /// Vertical displacement.
     Z,
-    /// Rotation.
+    /// Rotation in the plane.
     Rotation,
 }
 
@@ -107,7 +107,7 @@ pub struct Frame {
     /// Nodes by name.
     #[schemars(length(min = 2))]
     pub nodes: Vec<Node>,
-    /// Members.
+    /// Members between the nodes.
     #[schemars(length(min = 1))]
     pub members: Vec<Member>,
     /// Where the data come from.

@@ -14,7 +14,7 @@ pub struct Ramp {
     /// Over which length it grows to full size, m.
     #[schemars(range(min = 0))]
     pub length: f64,
-    /// Shape.
+    /// Shape over that length.
     #[serde(default)]
     pub shape: RampShape,
 }
@@ -34,12 +34,12 @@ pub enum RampShape {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[schemars(deny_unknown_fields)]
 pub struct Wave {
-    /// a, m.
+    /// Amplitude a, m.
     pub amplitude: f64,
-    /// λ, m.
+    /// Wavelength λ, m.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub wavelength: f64,
-    /// φ, rad.
+    /// Phase φ, rad.
     #[serde(default)]
     pub phase: f64,
 }

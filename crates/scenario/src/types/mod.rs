@@ -1,17 +1,29 @@
 //! The scenario file as types; the doc comments are the JSON Schema's descriptions.
 
 mod bridge;
+mod coupling;
+mod elements;
 mod frame;
+mod freedom;
 mod irregularity;
+mod links;
 mod model;
-mod run;
+mod scenario;
+mod sections;
+mod time;
 mod track;
 mod train;
 
 pub use bridge::*;
+pub use coupling::*;
+pub use elements::*;
 pub use frame::*;
+pub use freedom::*;
 pub use irregularity::*;
+pub use links::*;
 pub use model::*;
-pub use run::*;
+pub use scenario::*;
+pub use sections::*;
+pub use time::*;
 pub use track::*;
 pub use train::*;

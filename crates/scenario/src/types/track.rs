@@ -10,13 +10,13 @@ use crate::data::track_names;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[schemars(deny_unknown_fields)]
 pub struct Rail {
-    /// EI of both rails, N m².
+    /// Bending stiffness EI of both rails, N m².
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub bending_stiffness: f64,
     /// Mass of both rails, kg/m.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub mass: f64,
-    /// κGA of both rails, N; absent: Euler–Bernoulli, present: Timoshenko.
+    /// Shear stiffness κGA of both rails, N; absent: Euler–Bernoulli, present: Timoshenko.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub shear_stiffness: Option<f64>,
@@ -30,10 +30,10 @@ pub struct Rail {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[schemars(deny_unknown_fields)]
 pub struct Spring {
-    /// N/m.
+    /// Stiffness, N/m.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub stiffness: f64,
-    /// N s/m.
+    /// Damping, N s/m.
     #[schemars(range(min = 0))]
     pub damping: f64,
 }
@@ -53,22 +53,22 @@ pub enum Support {
     TwoLayer {
         /// Rail pad.
         pad: Spring,
-        /// Sleeper, kg.
+        /// Mass of the sleeper, kg.
         #[schemars(extend("exclusiveMinimum" = 0))]
         sleeper_mass: f64,
-        /// Ballast.
+        /// Ballast under the sleeper.
         ballast: Spring,
     },
     /// Rail – pad – sleeper – ballast – ballast mass (shear links to its neighbours) – sub-ballast – deck.
     ThreeLayer {
         /// Rail pad.
         pad: Spring,
-        /// Sleeper, kg.
+        /// Mass of the sleeper, kg.
         #[schemars(extend("exclusiveMinimum" = 0))]
         sleeper_mass: f64,
         /// Ballast between sleeper and ballast mass.
         ballast: Spring,
-        /// Ballast mass, kg.
+        /// Mass of the ballast that moves with a sleeper, kg.
         #[schemars(extend("exclusiveMinimum" = 0))]
         ballast_mass: f64,
         /// Link between neighbouring ballast masses; absent: none.

@@ -16,37 +16,37 @@ pub struct Car {
     /// Name for messages and the summary.
     #[serde(default)]
     pub name: String,
-    /// M_c, kg.
+    /// Mass of the body M_c, kg.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub body_mass: f64,
-    /// J_c, pitch inertia of the body, kg m².
+    /// Pitch inertia of the body J_c, kg m².
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub body_inertia: f64,
-    /// M_b, kg.
+    /// Mass of a bogie M_b, kg.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub bogie_mass: f64,
-    /// J_b, pitch inertia of a bogie, kg m².
+    /// Pitch inertia of a bogie J_b, kg m².
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub bogie_inertia: f64,
-    /// M_w, kg.
+    /// Mass of a wheelset M_w, kg.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub wheelset_mass: f64,
-    /// k_s, N/m per bogie.
+    /// Secondary stiffness k_s, N/m per bogie.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub secondary_stiffness: f64,
-    /// c_s, N s/m per bogie.
+    /// Secondary damping c_s, N s/m per bogie.
     #[schemars(range(min = 0))]
     pub secondary_damping: f64,
-    /// k_p, N/m per axle.
+    /// Primary stiffness k_p, N/m per axle.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub primary_stiffness: f64,
-    /// c_p, N s/m per axle.
+    /// Primary damping c_p, N s/m per axle.
     #[schemars(range(min = 0))]
     pub primary_damping: f64,
-    /// 2 L_c, m.
+    /// Distance of the bogies' centres 2 L_c, m.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub bogie_distance: f64,
-    /// 2 L_t, m.
+    /// Distance of a bogie's axles 2 L_t, m.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub wheelbase: f64,
     /// Length over couplers, m: the pitch to the next car.
