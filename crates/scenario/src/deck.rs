@@ -6,7 +6,7 @@ use crate::types::{Fixity, Frame, OverBearings};
 /// What the track needs to know of a structure.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Deck {
-    /// m.
+    /// Length of the deck, m.
     pub length: f64,
     /// Where it bears between its ends, m from its begin.
     pub inner_bearings: Vec<f64>,

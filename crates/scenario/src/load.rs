@@ -93,6 +93,10 @@ pub fn from_str(text: &str, base_dir: &Path, file_name: &str) -> Result<Checked,
         report.problem("$", MUST_FIT, "a name stands for nothing");
         return Err(report.into_problems());
     };
+    check::chosen_steps(&train_track, &mut report);
+    if !report.problems.is_empty() {
+        return Err(report.into_problems());
+    }
     Ok(Checked {
         hash: hash(&train_track, &bridge, &scenario.coupling),
         axle_load: train_track.cars.iter().map(Car::axle_load).fold(0.0, f64::max),

@@ -19,7 +19,7 @@ pub struct TrainTrackSpec {
     pub speed: Vec<[f64; 2]>,
     /// Pre-roll of the cars, m.
     pub pre_roll: f64,
-    /// Contact.
+    /// Wheel–rail contact.
     pub contact: Contact,
     /// Rail, supports, spacing.
     pub track: TrackType,
@@ -29,11 +29,11 @@ pub struct TrainTrackSpec {
     pub bays: usize,
     /// Rail elements per bay.
     pub elements_per_bay: usize,
-    /// Local rail compliance.
+    /// Whether the rail yields locally under a load inside an element.
     pub local_compliance: bool,
     /// The supports (0-based, increasing) that rest on the bridge; the others rest on the ground.
     pub on_bridge: Vec<usize>,
-    /// Irregularity.
+    /// Track irregularity.
     pub irregularity: Profile,
     /// Factor on the irregularity.
     pub irregularity_scale: f64,
@@ -53,13 +53,13 @@ pub struct TrainTrackSpec {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "type", rename_all = "kebab-case")]
 pub enum Profile {
-    /// Smooth.
+    /// A smooth rail.
     None,
     /// Waves a sin(2π (x − origin)/λ + φ).
     Waves {
         /// The waves.
         waves: Vec<Wave>,
-        /// m.
+        /// Abscissa from which the phases count, m.
         origin: f64,
         /// How they begin.
         ramp: Option<Ramp>,
@@ -68,7 +68,7 @@ pub enum Profile {
     Spectrum {
         /// S(Ω), one-sided.
         density: Density,
-        /// Seed.
+        /// Seed of the random phases.
         seed: u64,
         /// Shortest and longest wavelength, m.
         wavelengths: [f64; 2],
@@ -77,9 +77,9 @@ pub enum Profile {
     },
     /// Samples (x, r), x increasing, m; constant outside.
     Samples {
-        /// Abscissae.
+        /// Abscissae, m, rising.
         x: Vec<f64>,
-        /// Values.
+        /// Values r there, m.
         r: Vec<f64>,
         /// How it begins.
         ramp: Option<Ramp>,
@@ -118,7 +118,7 @@ pub enum Density {
 pub struct BridgeSpec {
     /// What carries.
     pub structure: StructureSpec,
-    /// Damping.
+    /// Damping of the bridge.
     pub damping: Damping,
     /// Solve in this many modes; `None`: all degrees of freedom.
     pub modes: Option<usize>,
@@ -128,7 +128,7 @@ pub struct BridgeSpec {
     pub supports: Vec<f64>,
     /// Monitored points.
     pub points: Vec<Point>,
-    /// Step, s.
+    /// Macro step, s.
     pub step: f64,
     /// End of the run, s.
     pub end: f64,
@@ -158,7 +158,7 @@ pub enum StructureSpec {
         /// Folder that their paths are relative to; where it lies decides nothing.
         #[serde(skip)]
         folder: PathBuf,
-        /// m.
+        /// Length along the track, m.
         length: f64,
     },
     /// Matrices or a reduced model in a file beside this specification.

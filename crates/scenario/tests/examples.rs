@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use ttb_scenario::deck::Deck;
 use ttb_scenario::spec::{BridgeSpec, TrainTrackSpec};
+use ttb_scenario::step::Excited;
 use ttb_scenario::types::Scenario;
 use ttb_scenario::{Checked, default_scenario_text, from_str, load, model_schema, schema};
 
@@ -137,4 +138,14 @@ fn the_schemas_name_themselves_and_describe_every_field() {
         }
     }
     assert_ne!(schema()["$id"], model_schema()["$id"]);
+}
+
+#[test]
+fn the_bundled_train_excites_what_its_data_say() {
+    let checked = from_str(default_scenario_text(), Path::new(""), "default").unwrap();
+    let excited = Excited::of(&checked.train_track);
+    assert!((excited.supports - 250.0 / 3.6 / checked.train_track.track.spacing).abs() < 1e-9, "{excited:?}");
+    assert!((excited.irregularity - 250.0 / 3.6 / 3.0).abs() < 1e-9, "{excited:?}");
+    // Handbooks put the contact resonance of wheel and rail between some 600 and 1,000 Hz.
+    assert!((600.0..1000.0).contains(&excited.wheel_rail), "{excited:?}");
 }

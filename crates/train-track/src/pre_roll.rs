@@ -26,7 +26,7 @@ pub fn pre_roll(
     state: &mut State,
 ) -> Result<(), String> {
     let h = matrices.newmark.h;
-    let steps = pre_roll_steps(distance, system.wheels.running.speed(0.0), h)?;
+    let steps = pre_roll_steps(distance, system.wheels.running.speed(0.0), h).map_err(|e| e.to_string())?;
     system.locate(0.0)?;
     let rail = rail_without_wheels(system, &state.deck);
     static_compliance(system);

@@ -5,16 +5,16 @@ use std::collections::HashSet;
 use super::advice;
 use super::places::{Passage, Rail};
 use crate::deck::Deck;
+use crate::limits::{MOST_BAYS, pre_roll_steps};
 use crate::pieces::Pieces;
 use crate::problem::Report;
 use crate::resolve::Resolved;
+use crate::step::LONGEST;
 use crate::travel::{distance, speed_at, wheel_offsets};
 use crate::types::{Bridge, Irregularity, RailPoint, Track};
 
 /// Relative slack for sums of lengths: a bridge may end exactly where the track ends.
 const ROUNDING: f64 = 1e-9;
-/// The schema's limit; more have been reported, and would take their time here.
-const MOST_BAYS: usize = 1_000_000;
 /// So many of the shortest waves fit into the table from which a random irregularity is read.
 const MOST_WAVES: f64 = 250_000.0;
 /// A random irregularity has at least this length, m.
@@ -33,11 +33,10 @@ pub(super) fn check(pieces: &Pieces, resolved: &Resolved, report: &mut Report) {
         train_on_rail(rail, passage, report);
     }
     points_on_rail(rail.as_ref(), &pieces.rail_points, report);
-    if let (Some(train), Some(speed)) = (&pieces.train, &resolved.speed)
-        && train.pre_roll > 0.0
-        && speed_at(speed, 0.0) == 0.0
-    {
-        report.problem("$.train.pre_roll", "a pre-roll needs a speed above 0 at the start", train.pre_roll);
+    if let (Some(train), Some(speed), Some(time)) = (&pieces.train, &resolved.speed, &pieces.time) {
+        // A step that is chosen is known, and looked at, only when all names stand for something.
+        let step = time.step.given().unwrap_or(LONGEST) / time.substeps.unwrap_or(1).max(1) as f64;
+        pre_roll(train.pre_roll, speed_at(speed, 0.0), step, resolved, report);
     }
     if let Some(passage) = &passage
         && let Some(Irregularity::Spectrum { wavelengths: [short, _], .. }) = pieces.irregularity
@@ -53,6 +52,7 @@ fn rail(pieces: &Pieces, resolved: &Resolved) -> Option<Rail> {
     let (laid, track) = (pieces.track.as_ref()?, resolved.track.as_ref()?);
     let to = laid.from + laid.bays as f64 * track.spacing;
     let element = track.spacing / laid.elements_per_bay.max(1) as f64;
+    // More bays have been reported, and would take their time here.
     (track.spacing > 0.0 && laid.bays <= MOST_BAYS).then_some(Rail {
         from: laid.from,
         to,
@@ -73,6 +73,18 @@ fn passage(pieces: &Pieces, resolved: &Resolved) -> Option<Passage> {
     let rear = train.front_wheel - wheel_offsets(cars).last()?;
     let end = train.front_wheel + distance(speed, time.end);
     Some(Passage { rear, front: train.front_wheel, end, pre_roll: train.pre_roll })
+}
+
+/// The cars roll over the pre-roll and their own length.
+fn pre_roll(distance: f64, speed: f64, step: f64, resolved: &Resolved, report: &mut Report) {
+    let length: f64 = resolved.cars.iter().flatten().map(|car| car.length).sum();
+    if distance > 0.0
+        && speed >= 0.0
+        && step > 0.0
+        && let Err(exceeded) = pre_roll_steps(distance + length, speed, step)
+    {
+        report.problem("$.train.pre_roll", exceeded.rule, exceeded.found);
+    }
 }
 
 fn resolvable(passage: &Passage, shortest: f64, report: &mut Report) {

@@ -9,6 +9,8 @@ pub(crate) mod model;
 mod places;
 mod run;
 
+pub(crate) use run::chosen_steps;
+
 use crate::pieces::Pieces;
 use crate::problem::Report;
 use crate::resolve::Resolved;

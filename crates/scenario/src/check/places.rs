@@ -6,7 +6,7 @@ pub(super) struct Rail {
     pub from: f64,
     /// Abscissa of the last support, m.
     pub to: f64,
-    /// m.
+    /// Distance of the supports, m.
     pub spacing: f64,
     /// Length of an element, m.
     pub element: f64,

@@ -1,10 +1,10 @@
 //! Rules inside the sections on train, track, irregularity and time.
 
+use crate::limits::{GREATEST_SPEED, STEP, pre_roll_steps, steps};
 use crate::problem::Report;
+use crate::spec::TrainTrackSpec;
+use crate::travel::speed_at;
 use crate::types::{CarChoice, CouplingSettings, Irregularity, Newmark, Rail, Sending, Speed, Time};
-
-/// More steps than any run has, and few enough to count exactly.
-const MOST_STEPS: f64 = 1e9;
 
 /// Wheelsets stand in order inside their car.
 pub(super) fn cars(cars: &[Option<CarChoice>], report: &mut Report) {
@@ -33,8 +33,9 @@ pub(super) fn speed(speed: &Speed, report: &mut Report) {
         }
     }
     for (i, [_, speed]) in points.iter().enumerate() {
-        if !(0.0..=300.0).contains(speed) {
-            report.problem(format!("{path}[{i}][1]"), "speeds must lie between 0 and 300 m/s", speed);
+        if !(0.0..=GREATEST_SPEED).contains(speed) {
+            let rule = format!("speeds must lie between 0 and {GREATEST_SPEED} m/s");
+            report.problem(format!("{path}[{i}][1]"), rule, speed);
         }
     }
 }
@@ -59,11 +60,31 @@ pub(super) fn time(time: &Time, report: &mut Report) {
     if step > time.end {
         report.problem("$.time.step", "the step must not be longer than the run", format!("{step} > {} s", time.end));
     }
-    if step > 0.0 && time.end / step > MOST_STEPS {
-        report.problem("$.time.step", "the run must have at most 1e9 steps", format!("{:e}", time.end / step));
+    // What is not above 0 has been reported.
+    if step > 0.0 && time.end > 0.0 {
+        let part = step / time.substeps.unwrap_or(1).max(1) as f64;
+        if part < STEP[0] || step > STEP[1] {
+            let rule = format!("steps and sub-steps must lie between {:e} and {} s", STEP[0], STEP[1]);
+            report.problem("$.time.step", rule, format!("{part:e} s"));
+        }
+        if let Err(exceeded) = steps(time.end, step) {
+            report.problem("$.time.step", exceeded.rule, exceeded.found);
+        }
     }
     if let Some(error) = time.error {
         report.problem("$.time.error", "belongs to a step that is chosen: \"step\": \"auto\"", error);
+    }
+}
+
+/// How many steps a run and its pre-roll have whose step was chosen.
+pub(crate) fn chosen_steps(spec: &TrainTrackSpec, report: &mut Report) {
+    if let Err(exceeded) = steps(spec.end, spec.step) {
+        report.problem("$.time.end", exceeded.rule, exceeded.found);
+    }
+    let distance =
+        if spec.pre_roll > 0.0 { spec.pre_roll + spec.cars.iter().map(|car| car.length).sum::<f64>() } else { 0.0 };
+    if let Err(exceeded) = pre_roll_steps(distance, speed_at(&spec.speed, 0.0), spec.step / spec.substeps as f64) {
+        report.problem("$.train.pre_roll", exceeded.rule, exceeded.found);
     }
 }
 

@@ -83,8 +83,34 @@ fn faults_between_fields_are_all_found() {
             ),
             case(
                 "too many steps",
-                &[("/time/step", "1e-10")],
-                &[("$.time.step", "the run must have at most 1e9 steps")],
+                &[("/time/step", "1e-9"), ("/time/end", "1e4"), ("/train/speed", "{\"m_s\": 0.001}")],
+                &[
+                    ("$.time.step", "the run must have at most 1e12 steps"),
+                    ("$.train.pre_roll", "a pre-roll must have at most 1e7 steps"),
+                ],
+            ),
+            case(
+                "steps that no double resolves",
+                &[("/time/step", "1e-8"), ("/time/substeps", "1000")],
+                &[
+                    ("$.time.step", "steps and sub-steps must lie between 1e-9 and 1000 s"),
+                    ("$.train.pre_roll", "a pre-roll must have at most 1e7 steps"),
+                ],
+            ),
+            case(
+                "too many steps of a size that is chosen",
+                &[
+                    ("/time/step", "\"auto\""),
+                    ("/time/end", "1e11"),
+                    ("/train/speed", "{\"m_s\": 0}"),
+                    ("/train/pre_roll", "0"),
+                ],
+                &[("$.time.end", "the run must have at most 1e12 steps")],
+            ),
+            case(
+                "a pre-roll at a crawl",
+                &[("/train/speed", "{\"m_s\": 1e-6}")],
+                &[("$.train.pre_roll", "a pre-roll must have at most 1e7 steps")],
             ),
             case(
                 "sub-steps with damping, with rates, and an error for a step that is given",
