@@ -56,6 +56,7 @@ class Fault:
     replace: list[tuple[str, str]] = field(default_factory=list)
     entries: object = keep
     reached: float | None = None  # s of results kept
+    checked: int = 1  # exit code of `ttb check`: 0 after remarks alone
 
     def __str__(self):
         return self.name.replace(" ", "-")
@@ -182,7 +183,7 @@ LIBRARIES = [
     Fault("prints", {"prints"}, 0, defines=["PRINTS"]),
     Fault("prints errors", {"prints"}, 0, defines=["STDERR_CHATTER"]),
     Fault("writes files", {"writes-files"}, 0, defines=["WRITES_FILE"]),
-    Fault("state in a global", {"instances", "not-repeatable"}, 0, defines=["STATIC_STATE"]),
+    Fault("state in a global", {"instances", "not-repeatable", "step-elsewhere"}, 0, defines=["STATIC_STATE"]),
     Fault("reset keeps something", {"reset"}, 0, defines=["RESET_KEEPS"]),
     Fault("memory grows", {"memory-growth"}, 0, defines=["LEAKS"]),
     Fault("states leak", {"state-leak"}, 0, defines=["STATE_LEAK"]),
@@ -202,6 +203,7 @@ STEPS = [
     Fault("hang late", {"hang"}, None, defines=["STEP_HANG"]),
     Fault("warnings", {"warnings"}, 0, defines=["WARNS"]),
     Fault("a fixed step", {"step-halved", "step-jitter"}, None, defines=["FIXED_STEP"]),
+    Fault("steps from any time", {"step-elsewhere"}, 0, defines=["ANY_TIME"], checked=0),
     Fault("NaN after a tiny step", {"step-tiny"}, 0, defines=["TINY_STEP_NAN"]),
 ]
 

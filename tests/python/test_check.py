@@ -42,7 +42,7 @@ def test_a_sound_foreign_fmu_is_without_findings(ttb, short, tmp_path, libraries
 @pytest.mark.parametrize("fault", ALL, ids=str)
 def test_a_fault_is_found_by_its_name(ttb, tmp_path, libraries, fault):
     """issues 4, must hold 3."""
-    found = findings(ttb, pack(fault, tmp_path, libraries), 1)
+    found = findings(ttb, pack(fault, tmp_path, libraries), fault.checked)
     assert {finding["name"] for finding in found} == fault.found, found
     assert all(finding["what"] for finding in found)
 
@@ -69,6 +69,15 @@ def test_one_line_a_finding_and_the_count_at_the_end(ttb, tmp_path, libraries):
     assert line.startswith("error") and " nan " in line
     assert "support[1].displacement, t = 0.301" in line
     assert done.stderr == f"ttb: {theirs}: 1 findings\n"
+
+
+def test_a_remark_is_told_and_is_no_failure(ttb, tmp_path, libraries):
+    """Most importers never ask for a step elsewhere: nothing is wrong with a run."""
+    theirs = pack(Fault("", set(), defines=["ANY_TIME"]), tmp_path, libraries)
+    done = ttb("check", theirs, expect=0)
+    [line] = done.stdout.splitlines()
+    assert line.startswith("remark") and " step-elsewhere " in line and "fmi2DoStep from t = 0.011 s" in line
+    assert done.stderr == ""
 
 
 def test_a_crash_says_during_which_call(ttb, tmp_path, libraries):

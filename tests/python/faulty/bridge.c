@@ -19,7 +19,7 @@
 
 typedef void (*logger_t)(void *, const char *, int, const char *, const char *, ...);
 typedef struct { logger_t logger; void *(*allocate)(size_t, size_t); void (*release)(void *); void *finished; void *environment; } callbacks_t;
-typedef struct { double force[N], q, v, h; long steps; } state_t;
+typedef struct { double force[N], q, v, end, h; long steps; } state_t; /* end: of the last step */
 typedef struct { const callbacks_t *callbacks; state_t now; double hidden; int initialized; } instance_t;
 enum { OK, WARNING, DISCARD, ERROR, FATAL, PENDING };
 
@@ -119,6 +119,7 @@ int fmi2Reset(void *c) {
     instance_t *s = c;
 #ifdef RESET_KEEPS
     memset(NOW(s)->force, 0, sizeof NOW(s)->force);
+    NOW(s)->end = 0;
     s->initialized = 0;
     s->hidden = NOW(s)->q; /* what stays of the run before */
 #else
@@ -164,6 +165,13 @@ int fmi2DoStep(void *c, double t, double h, int no_restore) {
     (void)no_restore; (void)late;
     const callbacks_t *cb = s->callbacks;
     (void)cb;
+#if !defined(ANY_TIME) && !defined(STATIC_STATE)
+    if (fabs(t - now->end) > 1e-6 * h + 1e-9 * fabs(t)) {
+        cb->logger(cb->environment, "x", ERROR, "error", "a step from %g, the last one ended at %g", t, now->end);
+        return ERROR;
+    }
+#endif
+    now->end = t + h;
 #ifdef DISCARD_LATE
     if (late) { cb->logger(cb->environment, "x", DISCARD, "info", "I give up at %g", t); return DISCARD; }
 #endif
@@ -258,7 +266,6 @@ int fmi2SetFMUstate(void *c, void *state) {
     instance_t *s = c;
     const state_t *saved = state;
 #if defined(SET_NOTHING)
-    (void)s; (void)saved;
 #elif defined(SET_FORGETS_VELOCITY)
     double v = NOW(s)->v;
     *NOW(s) = *saved;
@@ -270,6 +277,7 @@ int fmi2SetFMUstate(void *c, void *state) {
 #else
     *NOW(s) = *saved;
 #endif
+    NOW(s)->end = saved->end; /* these faults are about motion */
     return OK;
 }
 int fmi2FreeFMUstate(void *c, void **state) { (void)c; free(*state); *state = NULL; return OK; }

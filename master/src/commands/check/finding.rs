@@ -10,6 +10,8 @@ pub enum Severity {
     Error,
     /// Some master will stumble over it.
     Warning,
+    /// Not as the standard has it, but no master that keeps to it will notice.
+    Remark,
 }
 
 /// One finding.
@@ -38,6 +40,11 @@ impl Finding {
         Self { severity: Severity::Warning, ..Self::error(name, what) }
     }
 
+    /// A remark.
+    pub fn remark(name: &str, what: impl Into<String>) -> Self {
+        Self { severity: Severity::Remark, ..Self::error(name, what) }
+    }
+
     /// Where it was.
     pub fn at(self, at: impl Into<String>) -> Self {
         Self { at: at.into(), ..self }
@@ -58,7 +65,11 @@ impl Finding {
 /// One line.
 impl std::fmt::Display for Finding {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let severity = if self.severity == Severity::Error { "error" } else { "warning" };
+        let severity = match self.severity {
+            Severity::Error => "error",
+            Severity::Warning => "warning",
+            Severity::Remark => "remark",
+        };
         write!(f, "{severity:<8}{:<20} {}", self.name, self.what)?;
         if !self.at.is_empty() {
             write!(f, "; at {}", self.at)?;

@@ -49,7 +49,9 @@ pub fn check(arguments: &Check) -> Result<(), Error> {
     } else {
         found.iter().for_each(|finding| say!("{finding}"));
     }
-    if found.is_empty() { Ok(()) } else { Err(Error::Findings { fmu: arguments.fmu.clone(), count: found.len() }) }
+    // Remarks alone are no reason to fail.
+    let count = found.iter().filter(|finding| finding.severity < finding::Severity::Remark).count();
+    if count == 0 { Ok(()) } else { Err(Error::Findings { fmu: arguments.fmu.clone(), count }) }
 }
 
 /// All findings on a file.

@@ -1,6 +1,8 @@
-//! Step sizes as masters send them: with rounding noise, halved, next to nothing.
+//! Steps as masters send them: with rounding noise, halved, next to nothing; and one that no master should send, which
+//! begins elsewhere than the last one has ended.
 
 use ttb_contract::finite::not_finite;
+use ttb_fmi::Status;
 
 use super::context::Context;
 use super::drive::{Drive, open, reference};
@@ -65,6 +67,27 @@ pub fn steps(context: &Context) -> Result<(), Finding> {
                 }
             }
         }
+    }
+    drive.instance.free();
+    Ok(())
+}
+
+/// A step that leaves out ten, which FMI 2.0 (section 4.2.1) leaves no master free to ask for: an FMU that takes it goes on
+/// as if nothing had happened, and a mistake of a master stays hidden.
+pub fn elsewhere(context: &Context) -> Result<(), Finding> {
+    let (probe, plan) = open(context)?;
+    let n = plan.steps(12);
+    if n < 4 {
+        return Ok(());
+    }
+    let mut drive = Drive::fresh(&probe, &plan)?;
+    drive.step(0, 0.0)?;
+    let (t, h) = (plan.time(n - 1), plan.h);
+    drive.set(&plan.values(t, 0.0))?;
+    if drive.instance.step(t, h) <= Status::Warning {
+        let what = "it takes a step that does not begin where the last one has ended";
+        let at = format!("fmi2DoStep from t = {t} s by {h} s, the last step ended at {} s", plan.time(1));
+        context.find(Finding::remark("step-elsewhere", what).at(at));
     }
     drive.instance.free();
     Ok(())

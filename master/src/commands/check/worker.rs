@@ -34,6 +34,7 @@ pub const CHECKS: &[Check] = &[
     check("free", false, life::free),
     check("run", false, run::run),
     check("steps", false, steps::steps),
+    check("elsewhere", false, steps::elsewhere),
     check("roll-back", false, states::roll_back),
     check("memory", false, states::memory),
     check("serialize", false, states::serialize),
