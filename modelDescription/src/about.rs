@@ -1,5 +1,6 @@
 //! What an FMU says of itself besides its interface list.
 
+use crate::date::Date;
 use ttb_contract::Model;
 
 /// The log categories of the FMUs: name and meaning. The shell uses exactly these.
@@ -28,6 +29,8 @@ pub struct About<'a> {
     pub stop: f64,
     /// Whether `fmi2GetDirectionalDerivative` answers.
     pub directional_derivatives: bool,
+    /// Date for description and archive; without one they carry none.
+    pub date: Option<Date>,
 }
 
 impl<'a> About<'a> {
@@ -41,6 +44,7 @@ impl<'a> About<'a> {
             step,
             stop,
             directional_derivatives: M::DIRECTIONAL_DERIVATIVES,
+            date: None,
         }
     }
 

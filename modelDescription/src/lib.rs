@@ -5,6 +5,7 @@
 //! computes the same GUID from the model it has loaded, so that a binary refuses the description of another.
 
 pub mod about;
+pub mod date;
 pub mod documentation;
 pub mod guid;
 pub mod package;
@@ -12,6 +13,7 @@ pub mod units;
 pub mod xml;
 
 pub use about::About;
+pub use date::Date;
 pub use guid::guid;
 pub use package::{Contents, PackError, pack};
 pub use xml::{XmlError, xml};

@@ -1,6 +1,7 @@
 //! The FMU archive: deterministic, complete, and never seen half-written.
 
 use crate::about::About;
+use crate::date::Date;
 use crate::documentation::documentation;
 use crate::xml::{XmlError, xml};
 use std::fs::{self, File};
@@ -84,7 +85,8 @@ pub fn pack(contents: &Contents, path: &Path) -> Result<(), PackError> {
 
 /// Writes the entries in the order importers like: the description first.
 fn fill(contents: &Contents, file: &File, path: &Path) -> Result<(), PackError> {
-    let mut archive = Archive { zip: ZipWriter::new(BufWriter::new(file)).set_auto_large_file(), path };
+    let mut archive =
+        Archive { zip: ZipWriter::new(BufWriter::new(file)).set_auto_large_file(), date: contents.about.date, path };
     let identifier = contents.about.model_identifier;
     archive.text("modelDescription.xml", &xml(contents.interface, contents.about)?)?;
     archive.file(&format!("binaries/{PLATFORM}/{identifier}.{LIBRARY_EXTENSION}"), contents.binary)?;
@@ -102,6 +104,7 @@ fn fill(contents: &Contents, file: &File, path: &Path) -> Result<(), PackError> 
 
 struct Archive<'a, W: Write + io::Seek> {
     zip: ZipWriter<W>,
+    date: Option<Date>,
     path: &'a Path,
 }
 
@@ -110,12 +113,12 @@ impl<W: Write + io::Seek> Archive<'_, W> {
         PackError::Write { path: self.path.to_path_buf(), source }
     }
 
-    /// Opens an entry. The fixed date (1980, the zip epoch) makes the same contents the same bytes.
+    /// Opens an entry. Without a date it gets the first that archives know, 1980, so that the same contents are the same bytes.
     fn entry(&mut self, name: &str) -> Result<(), PackError> {
         let options = SimpleFileOptions::default()
             .compression_method(CompressionMethod::Deflated)
             .compression_level(Some(3)) // a run packs its FMUs anew: speed before the last per cent
-            .last_modified_time(DateTime::default())
+            .last_modified_time(self.date.map_or_else(DateTime::default, Date::of_entry))
             .unix_permissions(0o644);
         self.zip.start_file(name, options).map_err(|e| self.failed(e.into()))
     }

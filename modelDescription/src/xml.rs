@@ -5,9 +5,10 @@
 //! * outputs are `calculated`, without start, and stand in InitialUnknowns: their first value is static equilibrium;
 //! * `dependencies=""` for an output without direct feed-through; with it the attribute is absent, which means *all
 //!   inputs*: never a list of n² references;
-//! * the date is fixed, so that the same model gives the same file.
+//! * there is no date unless one is asked for ([`crate::date`]), so that the same model gives the same file.
 
 use crate::about::{About, LOG_CATEGORIES};
+use crate::date::Date;
 use crate::units;
 use quick_xml::Writer;
 use quick_xml::events::{BytesDecl, Event};
@@ -64,7 +65,7 @@ pub fn xml(interface: &Interface, about: &About) -> Result<String, XmlError> {
         .with_attribute(("version", env!("CARGO_PKG_VERSION")))
         .with_attribute(("license", env!("CARGO_PKG_LICENSE")))
         .with_attribute(("generationTool", tool))
-        .with_attribute(("generationDateAndTime", "2026-01-01T00:00:00Z"))
+        .with_attributes(about.date.map(Date::text).as_deref().map(|text| ("generationDateAndTime", text)))
         .with_attribute(("variableNamingConvention", "flat"))
         .write_inner_content(|xml| {
             co_simulation(xml, about)?;

@@ -34,6 +34,7 @@ fn about() -> About<'static> {
         step: 1e-3,
         stop: 12.5,
         directional_derivatives: true,
+        date: None,
     }
 }
 
@@ -102,6 +103,28 @@ fn the_same_contents_make_the_same_archive_in_fmi_order() {
         "resources/model.json",
     ];
     assert_eq!(names, expected);
+}
+
+#[test]
+fn a_date_that_is_asked_for_stands_in_the_description_and_on_every_entry_and_no_other_does() {
+    let folder = tempfile::tempdir().unwrap();
+    let binary = folder.path().join("libanything.so");
+    std::fs::write(&binary, "ELF").unwrap();
+    let interface = interface();
+    assert!(!xml(&interface, &about()).unwrap().contains("generationDateAndTime"));
+    let date = ttb_model_description::Date::from_epoch(1_709_210_096);
+    let dated = About { date, ..about() };
+    assert!(xml(&interface, &dated).unwrap().contains(" generationDateAndTime=\"2024-02-29T12:34:56Z\""));
+    let entries = |about: &About| {
+        let contents = Contents { interface: &interface, about, binary: &binary, resources: None, licenses: &[] };
+        let path = folder.path().join("x.fmu");
+        pack(&contents, &path).unwrap();
+        let mut archive = zip::ZipArchive::new(std::fs::File::open(path).unwrap()).unwrap();
+        (0..archive.len()).map(|i| archive.by_index(i).unwrap().last_modified().unwrap()).collect::<Vec<_>>()
+    };
+    let expected = zip::DateTime::from_date_and_time(2024, 2, 29, 12, 34, 56).unwrap();
+    assert!(entries(&dated).iter().all(|date| *date == expected));
+    assert!(entries(&about()).iter().all(|date| *date == zip::DateTime::default()));
 }
 
 #[test]

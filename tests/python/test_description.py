@@ -31,12 +31,27 @@ def variables(root):
     return root.findall("ModelVariables/ScalarVariable")
 
 
-def test_the_root_says_version_guid_and_date_in_the_standards_form(root):
-    """fmiVersion exactly 2.0; the GUID a registry GUID; the date ISO 8601 in UTC."""
+def test_the_root_says_version_and_guid_in_the_standards_form_and_no_date(root):
+    """fmiVersion exactly 2.0; the GUID a registry GUID; nobody has asked for a date."""
     assert root.get("fmiVersion") == "2.0"
     assert re.fullmatch(r"\{[0-9a-f]{8}(-[0-9a-f]{4}){3}-[0-9a-f]{12}\}", root.get("guid"))
-    assert re.fullmatch(r"\d{4}-\d\d-\d\dT\d\d:\d\d:\d\dZ", root.get("generationDateAndTime"))
+    assert root.get("generationDateAndTime") is None
     assert root.find("ModelExchange") is None
+
+
+def test_a_date_that_is_asked_for_is_in_the_files_and_a_wrong_one_is_refused(ttb, examples, tmp_path, monkeypatch):
+    """SOURCE_DATE_EPOCH, of reproducible-builds.org; 1709210096 is 2024-02-29T12:34:56Z by GNU date."""
+    monkeypatch.setenv("SOURCE_DATE_EPOCH", "1709210096")
+    ttb("export-ssp", examples / "r1.json", "-o", tmp_path / "r1.ssp")
+    with zipfile.ZipFile(tmp_path / "r1.ssp") as archive:
+        assert {entry.date_time for entry in archive.infolist()} == {(2024, 2, 29, 12, 34, 56)}
+        structure = etree.fromstring(archive.read("SystemStructure.ssd"))
+        with zipfile.ZipFile(archive.open("resources/Bridge.fmu")) as fmu:
+            assert {entry.date_time for entry in fmu.infolist()} == {(2024, 2, 29, 12, 34, 56)}
+            description = etree.fromstring(fmu.read(DESCRIPTION))
+    assert {root.get("generationDateAndTime") for root in (structure, description)} == {"2024-02-29T12:34:56Z"}
+    monkeypatch.setenv("SOURCE_DATE_EPOCH", "yesterday")
+    assert "SOURCE_DATE_EPOCH" in ttb("build", examples / "r1.json", "-o", tmp_path, expect=2).stderr
 
 
 def test_the_capabilities_are_those_a_master_with_roll_back_needs(root, any_fmu):

@@ -31,12 +31,26 @@ pub struct PackError {
     pub source: io::Error,
 }
 
+/// The date of an archive: as XML has it and as entries have it.
+#[derive(Clone, Debug)]
+pub struct Stamp {
+    /// `2026-01-31T12:00:00Z`.
+    pub text: String,
+    /// Of every entry.
+    pub entry: DateTime,
+}
+
 /// Writes the archive of a structure to `path`, replacing what was there in one stroke; `entries` are the other files by
-/// their paths inside, in this order.
+/// their paths inside, in this order. Without a date it carries none, so that the same contents are the same bytes.
 ///
 /// # Errors
 /// A file that cannot be read or written.
-pub fn pack(structure: &Structure, entries: &[(&str, Content)], path: &Path) -> Result<(), PackError> {
+pub fn pack(
+    structure: &Structure,
+    entries: &[(&str, Content)],
+    date: Option<&Stamp>,
+    path: &Path,
+) -> Result<(), PackError> {
     let failed = |source| PackError { path: path.to_path_buf(), what: "written", source };
     let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
     let mut builder = tempfile::Builder::new();
@@ -44,14 +58,14 @@ pub fn pack(structure: &Structure, entries: &[(&str, Content)], path: &Path) -> 
     builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o644));
     let temporary = builder.prefix(".").suffix(".ssp.part").tempfile_in(folder).map_err(failed)?;
     let mut zip = ZipWriter::new(BufWriter::new(temporary.as_file())).set_auto_large_file();
-    let text = write(structure).map_err(failed)?;
+    let text = write(structure, date.map(|date| date.text.as_str())).map_err(failed)?;
     let mut entry = |name: &str, content: Content| -> Result<(), PackError> {
         let method =
             if matches!(content, Content::File(_)) { CompressionMethod::Stored } else { CompressionMethod::Deflated };
-        // The fixed date (1980, the zip epoch) makes the same contents the same bytes.
+        // 1980 is the first date that archives know.
         let options = SimpleFileOptions::default()
             .compression_method(method)
-            .last_modified_time(DateTime::default())
+            .last_modified_time(date.map_or_else(DateTime::default, |date| date.entry))
             .unix_permissions(0o644);
         zip.start_file(name, options).map_err(|e| failed(e.into()))?;
         match content {

@@ -12,7 +12,7 @@ mod tree;
 mod types;
 mod write;
 
-pub use archive::{Content, PackError, pack};
+pub use archive::{Content, PackError, Stamp, pack};
 pub use problem::{Problem, Report};
 pub use read::read;
 pub use types::{

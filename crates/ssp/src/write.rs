@@ -11,11 +11,11 @@ use crate::types::{Annotation, BaseUnit, Component, Connection, Connector, Kind,
 
 type Xml = Writer<Vec<u8>>;
 
-/// The text of SystemStructure.ssd. No date stands in it: the same structure gives the same text.
+/// The text of SystemStructure.ssd, with a date if one is given.
 ///
 /// # Errors
 /// None in practice: it is written to memory.
-pub fn write(structure: &Structure) -> io::Result<String> {
+pub fn write(structure: &Structure, date: Option<&str>) -> io::Result<String> {
     let mut xml = Writer::new_with_indent(Vec::new(), b' ', 2);
     xml.write_event(Event::Decl(BytesDecl::new("1.0", Some("UTF-8"), None)))?;
     // All namespaces stand here: libcosim takes one declared within its annotation for a part of it.
@@ -35,6 +35,7 @@ pub fn write(structure: &Structure) -> io::Result<String> {
         .with_attribute(("name", structure.name.as_str()))
         .with_attributes(structure.description.as_deref().map(|text| ("description", text)))
         .with_attributes(structure.tool.as_deref().map(|tool| ("generationTool", tool)))
+        .with_attributes(date.map(|date| ("generationDateAndTime", date)))
         .write_inner_content(|xml| {
             system(xml, &structure.system)?;
             if !structure.units.is_empty() {

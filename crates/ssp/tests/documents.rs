@@ -75,7 +75,7 @@ fn plain(mut structure: Structure) -> Structure {
 
 #[test]
 fn what_is_written_is_read_again() {
-    let text = write(&structure()).unwrap();
+    let text = write(&structure(), None).unwrap();
     let again = read(text.as_bytes(), "a.ssd").unwrap_or_else(|report| panic!("{report}\n{text}"));
     assert_eq!(
         again.system.connections[1].place,
@@ -92,10 +92,14 @@ fn the_same_structure_gives_the_same_bytes() {
     let paths = ["a.ssp", "b.ssp"].map(|name| folder.path().join(name));
     for path in &paths {
         let entries = [("resources/b.fmu", Content::File(&fmu)), ("extra/org.ttb/a.json", Content::Text("{}"))];
-        pack(&structure(), &entries, path).unwrap();
+        pack(&structure(), &entries, None, path).unwrap();
     }
     assert_eq!(std::fs::read(&paths[0]).unwrap(), std::fs::read(&paths[1]).unwrap());
-    let missing = pack(&structure(), &[("resources/b.fmu", Content::File(&folder.path().join("no.fmu")))], &paths[0]);
+    let text = |date| ttb_ssp::write(&structure(), date).unwrap();
+    assert!(!text(None).contains("generationDateAndTime"));
+    assert!(text(Some("2026-01-31T12:00:00Z")).contains("generationDateAndTime=\"2026-01-31T12:00:00Z\""));
+    let nowhere = folder.path().join("no.fmu");
+    let missing = pack(&structure(), &[("resources/b.fmu", Content::File(&nowhere))], None, &paths[0]);
     assert!(missing.unwrap_err().to_string().contains("no.fmu cannot be read"));
 }
 
@@ -129,7 +133,7 @@ const BROKEN: [(&str, &str, &str); 20] = [
 
 #[test]
 fn every_broken_document_is_refused_with_its_place() {
-    let good = write(&structure()).unwrap();
+    let good = write(&structure(), None).unwrap();
     for (what, by, said) in BROKEN {
         assert!(good.contains(what), "{what}");
         let report = read(good.replacen(what, by, 1).as_bytes(), "a.ssd").unwrap_err().to_string();
@@ -142,7 +146,7 @@ fn every_broken_document_is_refused_with_its_place() {
 
 #[test]
 fn all_problems_come_at_once() {
-    let mut text = write(&structure()).unwrap();
+    let mut text = write(&structure(), None).unwrap();
     for (what, by, _) in BROKEN.iter().skip(16) {
         text = text.replacen(what, by, 1);
     }

@@ -6,7 +6,7 @@ use ttb_bridge::Bridge;
 use ttb_contract::{Model, ModelError};
 use ttb_fmi::temporary::Temporary;
 use ttb_model_description::package::LIBRARY_EXTENSION;
-use ttb_model_description::{About, Contents, pack};
+use ttb_model_description::{About, Contents, Date, pack};
 use ttb_scenario::Checked;
 use ttb_session::{Case, Sides};
 use ttb_train_track::TrainTrack;
@@ -106,7 +106,10 @@ fn write<M: Model>(kind: &Kind, model: &M, files: &[(&str, Vec<u8>)], folder: &P
     let path = folder.join(format!("{}.fmu", kind.identifier));
     let contents = Contents {
         interface: model.interface(),
-        about: &About::of(model, kind.identifier, kind.identifier, kind.description),
+        about: &About {
+            date: Date::asked_for().map_err(Error::Input)?,
+            ..About::of(model, kind.identifier, kind.identifier, kind.description)
+        },
         binary: &library(kind.library)?,
         resources: Some(resources.path()),
         licenses: &[("license.txt", include_str!("../../../LICENSE"))],

@@ -7,10 +7,11 @@ use ttb_fmi::archive::unpack;
 use ttb_fmi::description::{ModelDescription, VariableType};
 use ttb_fmi::temporary::Temporary;
 use ttb_fmi2::import::read_description;
+use ttb_model_description::Date;
 use ttb_scenario::Checked;
 use ttb_ssp::{
-    BaseUnit, Component, Connection, Connector, Content, EXTRA, Experiment, Kind, RESOURCES, Structure, System, Type,
-    Unit, pack,
+    BaseUnit, Component, Connection, Connector, Content, EXTRA, Experiment, Kind, RESOURCES, Stamp, Structure, System,
+    Type, Unit, pack,
 };
 
 use super::annotation::{Settings, write};
@@ -48,7 +49,9 @@ pub fn export(arguments: &ExportSsp) -> Result<PathBuf, Error> {
         (sources[1].as_str(), Content::File(&built.bridge)),
         (&format!("{EXTRA}/org.ttb/scenario.json"), Content::Text(&text)),
     ];
-    pack(&structure, &entries, &path).map_err(|e| Error::Io { path: e.path, source: e.source })?;
+    let date = Date::asked_for().map_err(Error::Input)?;
+    let stamp = date.map(|date| Stamp { text: date.text(), entry: date.of_entry() });
+    pack(&structure, &entries, stamp.as_ref(), &path).map_err(|e| Error::Io { path: e.path, source: e.source })?;
     Ok(path)
 }
 
