@@ -325,7 +325,7 @@ fn a_reset_runs_the_same_again() {
         let start = outputs(&mut bridge);
         for k in 0..5 {
             drive(&mut bridge, &smooth(0.02 + f64::from(k) * 1e-3), None);
-            bridge.step(f64::from(k) * 1e-3, 1.7e-3).unwrap();
+            bridge.step(f64::from(k) * 1.7e-3, 1.7e-3).unwrap();
         }
         let answer = (start, outputs(&mut bridge));
         bridge.reset();
