@@ -154,7 +154,7 @@ fn timoshenko_cantilever() {
 fn cable_stiffness() {
     let mut table = Table::new("cable: Ernst's modulus against the elastic catenary", "Irvine 1981; N/m", COMMAND);
     let (modulus, area, mass, unstressed): (f64, f64, f64, f64) = (1.65e11, 5e-3, 39.25, 150.0);
-    let w = mass * ttb_dynamics::frame::GRAVITY;
+    let w = mass * ttb_contract::GRAVITY;
     for stress in [1e8, 2e8, 4e8] {
         let h = stress * area;
         let r = 0.5 * w * unstressed / h;

@@ -23,6 +23,9 @@ pub mod snapshot;
 pub mod subsystem;
 pub mod values;
 
+/// Acceleration of gravity in all of this project, m/s².
+pub const GRAVITY: f64 = 9.81;
+
 pub use in_process::InProcess;
 pub use instance::{Instance, Phase};
 pub use interface::{Causality, Interface, Kind, Variable};

@@ -14,6 +14,7 @@
 //! element with two hinges and no bending stiffness.
 
 use nalgebra::{SMatrix, SVector};
+use ttb_contract::GRAVITY;
 
 use crate::beam::Beam;
 
@@ -22,9 +23,6 @@ pub type Matrix6 = SMatrix<f64, 6, 6>;
 /// A row over the same degrees of freedom.
 pub type Row6 = SVector<f64, 6>;
 
-/// Standard acceleration of gravity of this project, m/s².
-pub const GRAVITY: f64 = 9.81;
-
 /// A straight element.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FrameElement {
@@ -32,7 +30,7 @@ pub struct FrameElement {
     pub beam: Beam,
     /// EA, N.
     pub axial_stiffness: f64,
-    /// Components (x, z) of the way from the first to the second node, m.
+    /// Components (x, z) of the distance from the first to the second node, m.
     pub span: [f64; 2],
     /// Hinges at the first and second end.
     pub hinged: [bool; 2],

@@ -54,5 +54,5 @@ pub(crate) fn add(b: &mut Builder, x: f64, girder: &Girder, placed: &Placed, leg
 /// w, N/m.
 fn weight(girder: &Girder, x: f64) -> f64 {
     let concrete = girder.trough.area(girder.height(x)) + girder.trough.cross_beam_volume() / plan::BAY;
-    (concrete * plan::DENSITY + plan::TRACK_LOAD) * plan::GRAVITY
+    (concrete * plan::DENSITY + plan::TRACK_LOAD) * ttb_scenario::GRAVITY
 }

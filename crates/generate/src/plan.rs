@@ -1,5 +1,7 @@
 //! The cable-stayed bridge's fixed dimensions. Abscissae are counted from the begin of its main girder.
 
+use ttb_scenario::GRAVITY;
+
 use crate::section::{Profile, hollow, solid};
 use crate::trough::Trough;
 
@@ -18,8 +20,6 @@ pub(crate) const SEAT: f64 = 2.0;
 
 /// Dead load that the track brings: 67.9 kN/m, as kg/m.
 pub(crate) const TRACK_LOAD: f64 = 67.9e3 / GRAVITY;
-/// g, m/s².
-pub(crate) const GRAVITY: f64 = 9.81;
 
 /// E of concrete C50, N/m².
 pub(crate) const MODULUS: f64 = 3.45e10;

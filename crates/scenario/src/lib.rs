@@ -28,4 +28,4 @@ pub use bundled::default_scenario_text;
 pub use load::{Checked, from_str, load};
 pub use problem::{Problem, Problems, nearest};
 pub use schema::{model_schema, schema};
-pub use types::GRAVITY;
+pub use ttb_contract::GRAVITY;

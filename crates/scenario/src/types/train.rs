@@ -5,9 +5,6 @@ use serde::{Deserialize, Serialize};
 
 use crate::data::train_names;
 
-/// Acceleration of gravity, m/s².
-pub const GRAVITY: f64 = 9.81;
-
 /// One car with 10 degrees of freedom. Springs and dashpots are those of a whole bogie (secondary) or a whole
 /// wheelset (primary), both sides summed.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -158,7 +155,7 @@ impl Car {
     /// Static load of an axle, N.
     #[must_use]
     pub fn axle_load(&self) -> f64 {
-        GRAVITY * (0.25 * self.body_mass + 0.5 * self.bogie_mass + self.wheelset_mass)
+        ttb_contract::GRAVITY * (0.25 * self.body_mass + 0.5 * self.bogie_mass + self.wheelset_mass)
     }
 }
 
