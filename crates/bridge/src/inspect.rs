@@ -6,13 +6,14 @@ use ttb_contract::ModelError;
 use ttb_import::Inspection;
 use ttb_scenario::spec::{BridgeSpec, StructureSpec};
 use ttb_scenario::types::Model;
+use ttb_sparse::Condition;
 use ttb_sparse::Pencil;
 use ttb_sparse::modes::lowest;
 use ttb_sparse::{Factor, FactorError, Layout};
 
 use crate::assembled::{Assembled, Names};
 use crate::space::{self, SelfCheck, Statics};
-use crate::{imported, plane};
+use crate::{imported, plane, rounding};
 
 /// Natural frequencies that are sought.
 const FREQUENCIES: usize = 8;
@@ -29,15 +30,18 @@ pub struct Report {
     pub files: Option<Inspection>,
     /// Mass, kg.
     pub mass: f64,
+    /// What rounding leaves of static displacements.
+    pub condition: Option<Condition>,
     /// Lowest natural frequencies, Hz; or why there are none.
     pub frequencies: Result<Vec<f64>, String>,
 }
 
 impl Report {
-    /// Nothing is loose, forces balance, K is positive definite.
+    /// Nothing is loose, forces balance, K is positive definite, rounding spoils nothing.
     #[must_use]
     pub fn is_sound(&self) -> bool {
-        self.frequencies.is_ok() && self.model.as_ref().is_none_or(SelfCheck::is_sound)
+        let accurate = self.condition.as_ref().is_none_or(rounding::is_tolerable);
+        accurate && self.frequencies.is_ok() && self.model.as_ref().is_none_or(SelfCheck::is_sound)
     }
 }
 
@@ -60,6 +64,27 @@ pub fn inspect(spec: &BridgeSpec) -> Result<Report, ModelError> {
     }
 }
 
+/// What the user of a scenario's bridge should know before it runs, a sentence each.
+///
+/// # Errors
+/// It cannot be assembled or factorised, or rounding spoils its results.
+pub fn remarks(spec: &BridgeSpec) -> Result<Vec<String>, ModelError> {
+    let Some(assembled) = assembled(spec)? else { return Ok(Vec::new()) };
+    let Equations { factor, names, condition, .. } = Equations::new(assembled)?;
+    factor.map_err(|error| ModelError(format!("bridge: {}", loose(error, &names))))?;
+    Ok(condition.map(|condition| rounding::remark(&condition)).transpose()?.flatten().into_iter().collect())
+}
+
+/// The assembled bridge; none where a stored one stands for it.
+fn assembled(spec: &BridgeSpec) -> Result<Option<Assembled>, ModelError> {
+    Ok(Some(match &spec.structure {
+        StructureSpec::FiniteElements(model) => space::assemble(model, &spec.supports, &[])?,
+        StructureSpec::Matrices { files, folder, .. } => imported::assemble(files, folder, &spec.supports)?,
+        StructureSpec::Beams { .. } | StructureSpec::Frame(_) => plane::assemble(spec)?,
+        StructureSpec::Stored => return Ok(None),
+    }))
+}
+
 /// Looks at a finite-element model; `supports` (m from its begin) may be empty.
 ///
 /// # Errors
@@ -67,11 +92,19 @@ pub fn inspect(spec: &BridgeSpec) -> Result<Report, ModelError> {
 pub fn of_model(model: &Model, supports: &[f64]) -> Result<Report, ModelError> {
     let assembled = match space::assemble(model, supports, &[]) {
         Ok(assembled) => assembled,
-        // What the model says of itself tells more than the first thing that was in the way.
+        // What the model says of itself tells more than the first obstacle.
         Err(error) => {
             let check = space::self_check(model, Statics::Unknown)?;
             let (ndof, mass) = (check.freedoms, check.mass);
-            return Ok(Report { ndof, entries: 0, model: Some(check), files: None, mass, frequencies: Err(error.0) });
+            return Ok(Report {
+                ndof,
+                entries: 0,
+                model: Some(check),
+                files: None,
+                mass,
+                condition: None,
+                frequencies: Err(error.0),
+            });
         }
     };
     let equations = Equations::new(assembled)?;
@@ -92,31 +125,37 @@ struct Equations {
     factor: Result<Factor, FactorError>,
     names: Names,
     mass: f64,
+    condition: Option<Condition>,
 }
 
 impl Equations {
     fn new(assembled: Assembled) -> Result<Self, ModelError> {
-        let Assembled { equations, nodes, node_of, names, mass, .. } = assembled;
+        let Assembled { equations, nodes, node_of, names, supports, mass, .. } = assembled;
         let layout = Layout { node_of, place: nodes, ..Layout::default() };
         let pencil = equations.finish_with(&layout).map_err(|e| ModelError(format!("bridge: {e}")))?;
         let factor = pencil.factor(1.0, 0.0, 0.0);
-        Ok(Self { pencil, factor, names, mass })
+        let condition = factor.as_ref().ok().and_then(|factor| rounding::condition(&pencil, factor, &supports));
+        Ok(Self { pencil, factor, names, mass, condition })
     }
 
     fn report(self, model: Option<SelfCheck>, files: Option<Inspection>) -> Report {
-        let Self { pencil, factor, names, mass } = self;
+        let Self { pencil, factor, names, mass, condition } = self;
         let (ndof, entries) = (pencil.ndof(), pencil.entries());
-        Report { ndof, entries, model, files, mass, frequencies: frequencies(&pencil, factor, &names) }
+        Report { ndof, entries, model, files, mass, condition, frequencies: frequencies(&pencil, factor, &names) }
     }
 }
 
 fn frequencies(pencil: &Pencil, factor: Result<Factor, FactorError>, names: &Names) -> Result<Vec<f64>, String> {
-    let factor = factor.map_err(|error| match error {
-        FactorError::NotPositive { dof } => format!("K is not positive definite: nothing holds the {}", names(dof)),
-        other => other.to_string(),
-    })?;
+    let factor = factor.map_err(|error| loose(error, names))?;
     let found = lowest(pencil, &factor, FREQUENCIES.min(pencil.ndof()));
     found.map(|modes| modes.frequencies().collect()).map_err(|error| error.to_string())
+}
+
+fn loose(error: FactorError, names: &Names) -> String {
+    match error {
+        FactorError::NotPositive { dof } => format!("K is not positive definite: nothing holds the {}", names(dof)),
+        other => other.to_string(),
+    }
 }
 
 impl fmt::Display for Report {
@@ -129,6 +168,13 @@ impl fmt::Display for Report {
         }
         if let Some(files) = &self.files {
             facts(files, f)?;
+        }
+        if let Some(condition) = &self.condition {
+            let (number, error) = (condition.number, condition.error());
+            writeln!(
+                f,
+                "condition of K       {number:.1e}: rounding moves displacements by about {error:.0e} of themselves"
+            )?;
         }
         match &self.frequencies {
             Ok(hertz) => {

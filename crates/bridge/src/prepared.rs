@@ -83,7 +83,7 @@ impl Prepared {
         } else {
             let Structure { system, rows, supports, .. } = &self.structure;
             let step = Arc::clone(system).prepare(law, newmark, rows, *supports);
-            let failed = |e| ModelError(format!("bridge: a step of {} s cannot be factorised: {e}", newmark.h));
+            let failed = |e| ModelError(format!("bridge: a step of {:?} s cannot be factorised: {e}", newmark.h));
             let step = step.map_err(failed)?;
             self.factorisations.fetch_add(1, Ordering::Relaxed);
             steps.truncate(KEPT - 1);

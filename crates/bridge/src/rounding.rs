@@ -32,18 +32,30 @@ pub fn words(condition: &Condition) -> String {
     )
 }
 
+/// Whether a bridge of this condition is accepted.
+pub fn is_tolerable(condition: &Condition) -> bool {
+    condition.error() <= REFUSED
+}
+
 /// A remark where rounding shows.
 ///
 /// # Errors
 /// Rounding spoils the results.
 pub fn check(pencil: &Pencil, stiffness: &Factor, supports: &[Row]) -> Result<Option<String>, ModelError> {
-    let Some(condition) = condition(pencil, stiffness, supports) else { return Ok(None) };
-    let (error, words) = (condition.error(), words(&condition));
+    condition(pencil, stiffness, supports).map_or(Ok(None), |condition| remark(&condition))
+}
+
+/// As [`check`], for a condition that is known.
+///
+/// # Errors
+/// As there.
+pub fn remark(condition: &Condition) -> Result<Option<String>, ModelError> {
+    let (error, words) = (condition.error(), words(condition));
     let advice = "use longer elements (the error of a beam grows with the fourth power of their number), or replace \
                   members much stiffer than their neighbours by links";
     if error <= TOLD {
         Ok(None)
-    } else if error <= REFUSED {
+    } else if is_tolerable(condition) {
         Ok(Some(format!("bridge: {words}; {advice}")))
     } else {
         Err(ModelError(format!("bridge: {words}, and at most {REFUSED} is accepted; {advice}")))

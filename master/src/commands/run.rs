@@ -61,7 +61,10 @@ fn run_scenario(arguments: &Run, isolated: &Isolated) -> Result<(), Error> {
     let train_track = arguments.train_track.clone().map_or_else(|| fmus::train_track(&checked, folder), Ok)?;
     let mut bridges = arguments.bridge.clone();
     if bridges.is_empty() {
-        bridges.push(fmus::bridge(&checked, folder)?);
+        let (path, remarks) = fmus::bridge(&checked, folder)?;
+        warn(&remarks);
+        checked.warnings.extend(remarks);
+        bridges.push(path);
     }
     let bridges: Vec<Given> = bridges.iter().enumerate().map(|(k, path)| Given { path, map: map(k) }).collect();
     let (stop, begin) = (stop_on_interrupt(), Instant::now());

@@ -35,7 +35,7 @@ pub fn choose(checked: &mut Checked, given: &[Given], isolated: &Isolated) -> Re
         return Ok(None);
     }
     let folder = Temporary::new("ttb-auto-").map_err(Error::io(std::path::Path::new("temporary folder")))?;
-    let built = if given.is_empty() { Some(fmus::bridge(checked, folder.path())?) } else { None };
+    let built = if given.is_empty() { Some(fmus::bridge(checked, folder.path())?.0) } else { None };
     let ours: Vec<Given> = built.iter().map(|path| Given { path, map: None }).collect();
     let stage = Stage { bridges: if given.is_empty() { &ours } else { given }, ours: given.is_empty(), isolated };
     let short = stretch::stretch(checked);

@@ -59,7 +59,10 @@ pub fn scenario(path: Option<&Path>) -> Result<Checked, Error> {
 /// Writes TrainTrack.fmu and Bridge.fmu into `folder`.
 pub fn build(checked: &Checked, folder: &Path) -> Result<Built, Error> {
     std::fs::create_dir_all(folder).map_err(Error::io(folder))?;
-    Ok(Built { train_track: train_track(checked, folder)?, bridge: bridge(checked, folder)? })
+    let train_track = train_track(checked, folder)?;
+    let (bridge, remarks) = bridge(checked, folder)?;
+    remarks.iter().for_each(|remark| eprintln!("ttb: warning: {remark}"));
+    Ok(Built { train_track, bridge })
 }
 
 /// Both subsystems in this process, in initialization mode.
@@ -77,8 +80,8 @@ pub fn train_track(checked: &Checked, folder: &Path) -> Result<PathBuf, Error> {
     write(&TRAIN_TRACK, &model, &[("train-track.json", text)], folder)
 }
 
-/// Writes Bridge.fmu.
-pub fn bridge(checked: &Checked, folder: &Path) -> Result<PathBuf, Error> {
+/// Writes Bridge.fmu; its path, and what its user should know of the bridge.
+pub fn bridge(checked: &Checked, folder: &Path) -> Result<(PathBuf, Vec<String>), Error> {
     let model = Bridge::new(checked.bridge.clone()).map_err(|e| Error::Input(e.to_string()))?;
     if let Some(a) = model.accuracy() {
         eprintln!(
@@ -93,7 +96,7 @@ pub fn bridge(checked: &Checked, folder: &Path) -> Result<PathBuf, Error> {
         );
     }
     let files = model.resources(&checked.bridge).map_err(|e| Error::Pack(e.to_string()))?;
-    write(&BRIDGE, &model, &files, folder)
+    Ok((write(&BRIDGE, &model, &files, folder)?, model.remarks().to_vec()))
 }
 
 /// Writes the FMU of a model with its resources, name and content of each.
