@@ -42,8 +42,8 @@ fn divide(
     elements: &mut Vec<Element>,
 ) -> Result<(), ModelError> {
     let [a, b] = ends.map(|end| [nodes[end].x, nodes[end].z]);
-    let way = [b[0] - a[0], b[1] - a[1]];
-    let length = way[0].hypot(way[1]);
+    let chord = [b[0] - a[0], b[1] - a[1]];
+    let length = chord[0].hypot(chord[1]);
     if !(length > 0.0 && length.is_finite()) {
         return Err(wrong(member, &format!("its length is {length} m; it must be positive")));
     }
@@ -52,15 +52,15 @@ fn divide(
         MemberKind::Truss => {
             elements.push(Element {
                 nodes: ends,
-                frame: FrameElement::truss(axial, section.mass, way),
+                frame: FrameElement::truss(axial, section.mass, chord),
                 deck: member.deck,
             });
         }
         MemberKind::Cable => {
             let tension = member.tension.filter(|t| *t > 0.0 && t.is_finite());
             let tension = tension.ok_or_else(|| wrong(member, "a cable needs a positive tension"))?;
-            let modulus = ernst_modulus(section.modulus, section.area, section.mass, tension, way[0].abs());
-            let frame = FrameElement::truss(modulus * section.area, section.mass, way);
+            let modulus = ernst_modulus(section.modulus, section.area, section.mass, tension, chord[0].abs());
+            let frame = FrameElement::truss(modulus * section.area, section.mass, chord);
             elements.push(Element { nodes: ends, frame, deck: member.deck });
         }
         MemberKind::Beam => {
@@ -83,10 +83,10 @@ fn divide(
                 let to = if i == n { ends[1] } else { nodes.len() };
                 if i < n {
                     let name = format!("{i} of {n} on member {}", title(member));
-                    nodes.push(Node { name, x: a[0] + part * way[0], z: a[1] + part * way[1], fixed: [false; 3] });
+                    nodes.push(Node { name, x: a[0] + part * chord[0], z: a[1] + part * chord[1], fixed: [false; 3] });
                 }
                 let hinged = [member.hinged[0] && i == 1, member.hinged[1] && i == n];
-                let span = way.map(|component| component / n as f64);
+                let span = chord.map(|component| component / n as f64);
                 let frame = FrameElement { beam, axial_stiffness: axial, span, hinged };
                 elements.push(Element { nodes: [from, to], frame, deck: member.deck });
                 from = to;

@@ -1,4 +1,4 @@
-//! Several runs over one bridge in lockstep, for sweeps: [`RUNS`] of them share the factor's way through memory.
+//! Several runs over one bridge in lockstep, for sweeps: [`RUNS`] of them share one reading of the factor.
 //!
 //! ```text
 //! begin    y = L⁻¹ p  of all runs           one sweep over L for all

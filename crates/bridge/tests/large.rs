@@ -131,7 +131,7 @@ fn a_step_repeats_bit_for_bit_also_from_bytes_and_in_a_packed_bridge() {
         packed.enter_initialization(0.0).unwrap();
         packed.exit_initialization().unwrap();
         assert_eq!(drive_about(packed), here);
-        // A file cut short is refused, not believed.
+        // A file cut short is refused.
         let file = folder.path().join("bridge.bin");
         let bytes = std::fs::read(&file).unwrap();
         std::fs::write(&file, &bytes[..bytes.len() / 2]).unwrap();

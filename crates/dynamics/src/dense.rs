@@ -12,7 +12,7 @@ use faer::{Accum, Mat, MatMut, Par};
 use pulp::{Arch, Simd, WithSimd};
 use serde::{Deserialize, Serialize};
 
-/// A matrix; in single precision it takes half the way through memory. Sums are in double precision either way.
+/// A matrix; in single precision half as much is read from memory. Sums are in double precision either way.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Dense<T = f64> {
     columns: usize,

@@ -176,10 +176,10 @@ impl Beam3 {
 
     /// Place ξ between 0 and 1 on the axis that lies nearest to `point`, and the arm from there to it.
     pub fn closest(&self, point: [f64; 3]) -> (f64, [f64; 3]) {
-        let way = Vector3::from(point) - self.begin;
+        let chord = Vector3::from(point) - self.begin;
         let axis: Vector3<f64> = self.axes.row(0).transpose();
-        let xi = (axis.dot(&way) / self.length).clamp(0.0, 1.0);
-        (xi, (way - xi * self.length * axis).into())
+        let xi = (axis.dot(&chord) / self.length).clamp(0.0, 1.0);
+        (xi, (chord - xi * self.length * axis).into())
     }
 
     /// Row that gives the displacement along `direction` of a point `arm` (global, m) away from the axis at ξ:
@@ -212,13 +212,13 @@ impl Beam3 {
 
 /// l and A.
 fn axes(begin: Vector3<f64>, end: Vector3<f64>, orientation: [f64; 3]) -> Result<(f64, Matrix3<f64>), ElementError> {
-    let (way, vector) = (end - begin, Vector3::from(orientation));
-    let (length, size) = (way.norm(), vector.norm());
+    let (chord, vector) = (end - begin, Vector3::from(orientation));
+    let (length, size) = (chord.norm(), vector.norm());
     // Shorter than rounding of the coordinates leaves meaningful.
     if !exceeds(length, 1e-9 * (1.0 + begin.amax())) {
         return Err(ElementError::NoLength);
     }
-    let first = way / length;
+    let first = chord / length;
     let third = first.cross(&vector);
     if !exceeds(third.norm(), 1e-6 * size) {
         return Err(ElementError::ParallelOrientation);

@@ -47,8 +47,8 @@ impl Truss3 {
         positive("modulus", modulus)?;
         positive("area", area)?;
         positive("tension", tension)?;
-        let (way, up) = (Vector3::from(ends[1]) - Vector3::from(ends[0]), Vector3::from(vertical).normalize());
-        let horizontal = (way - up * up.dot(&way)).norm();
+        let (chord, up) = (Vector3::from(ends[1]) - Vector3::from(ends[0]), Vector3::from(vertical).normalize());
+        let horizontal = (chord - up * up.dot(&chord)).norm();
         Self::new(ends, ernst_modulus(modulus, area, mass, tension, horizontal) * area, mass)
     }
 
@@ -89,9 +89,9 @@ mod tests {
         let matrices = truss.matrices();
         // Of twelve motions one stretches; the others are the six rigid ones and five loose.
         check(&matrices, &ENDS, 5);
-        let (k, way) = (square(&matrices.k), truss.direction);
+        let (k, chord) = (square(&matrices.k), truss.direction);
         let mut stretch = nalgebra::DVector::zeros(12);
-        stretch.fixed_rows_mut::<3>(6).copy_from(&way);
+        stretch.fixed_rows_mut::<3>(6).copy_from(&chord);
         assert!((stretch.dot(&(k * &stretch)) / (2e6 / truss.length()) - 1.0).abs() < 1e-12);
         let m = square(&matrices.m);
         for motion in &rigid(&ENDS)[..3] {

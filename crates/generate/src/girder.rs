@@ -62,7 +62,7 @@ impl Placed {
     }
 }
 
-/// Numbers of elements on the way up a web, over half a flange, down a cross-beam.
+/// Numbers of elements up a web, over half a flange, down a cross-beam.
 struct Divisions {
     web: usize,
     flange: usize,

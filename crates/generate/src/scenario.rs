@@ -1,6 +1,6 @@
 //! Scenarios for the models: a train over them, as text.
 //!
-//! The way is that of the bundled scenario: the leading wheel starts 40 m before the bridge and stops 232 m behind it, so
+//! The distance run is that of the bundled scenario: the leading wheel starts 40 m before the bridge and stops 232 m behind it, so
 //! that the ICE 3's last wheel, 195 m behind the first, leaves it too. The whole train stands on the rail all the time.
 
 use ttb_scenario::types::Model;
@@ -75,8 +75,8 @@ fn scenario(
     points: &[String],
     highest_frequency: Option<f64>,
 ) -> String {
-    let way = BRIDGE - FRONT + length + BEHIND[0];
-    let end = (way / (SPEED / 3.6) * 1e3 - 1e-6).ceil() / 1e3;
+    let distance = BRIDGE - FRONT + length + BEHIND[0];
+    let end = (distance / (SPEED / 3.6) * 1e3 - 1e-6).ceil() / 1e3;
     let bays = ((BRIDGE + length + BEHIND[0] + BEHIND[1]) / SPACING).ceil();
     let file = serde_json::Value::from(file);
     let reduction = highest_frequency

@@ -11,7 +11,7 @@ pub fn solve(factor: &Factor, block: &mut [f64]) {
     solve_over(factor, block, None);
 }
 
-/// The same for columns that are zero but for the given degrees of freedom: on the way down few panels are met.
+/// The same for columns that are zero but for the given degrees of freedom: the forward sweep then meets few panels.
 pub fn solve_loads(factor: &Factor, block: &mut [f64], loaded: impl Iterator<Item = u32>) {
     let reach = factor.panels().map(|(pattern, _)| pattern.reach(loaded));
     solve_over(factor, block, reach.as_deref());

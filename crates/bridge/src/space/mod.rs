@@ -100,7 +100,7 @@ fn monitor(point: &Point, freedoms: &Freedoms, track: &Track) -> Result<Row, Mod
     }
 }
 
-/// The equations on their way.
+/// The equations while they are assembled.
 struct System<'a> {
     freedoms: &'a Freedoms,
     equations: Assembly,

@@ -1,4 +1,4 @@
-//! The track's way over the model: from a station x to weights on the motions of nodes.
+//! The track's line over the model: from a station x to weights on the motions of nodes.
 //!
 //! ```text
 //! shells   u(x) = Σ_j N_j(ξ, η) z_j                     in the shell over or under (x, y)

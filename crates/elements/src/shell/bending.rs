@@ -86,9 +86,9 @@ fn stiffness<const N: usize, const D: usize>(
     let (mut tangents, mut swings, mut strains) = ([[0.0; 2]; N], [[0.0; D]; N], [[0.0; D]; N]);
     for i in 0..N {
         let j = (i + 1) % N;
-        let way = [corners[j][0] - corners[i][0], corners[j][1] - corners[i][1]];
-        let l = way[0].hypot(way[1]);
-        let [c, s] = way.map(|x| x / l);
+        let chord = [corners[j][0] - corners[i][0], corners[j][1] - corners[i][1]];
+        let l = chord[0].hypot(chord[1]);
+        let [c, s] = chord.map(|x| x / l);
         let phi = 2.0 * t * t / (SHEAR_FACTOR * (1.0 - nu) * l * l);
         let (jump, mean) = (-1.5 / (l * (1.0 + phi)), -0.75 / (1.0 + phi));
         for (corner, sign) in [(i, -1.0), (j, 1.0)] {

@@ -1,4 +1,4 @@
-//! What flat elements share: their plane, and the way from it to the nodes.
+//! What flat elements share: their plane, and the passage from it to the nodes.
 //!
 //! The corners p_i of a warped quadrilateral lie off its mean plane by h_i n; rigid arms lead from the nodes to the
 //! plane's corners, so that rigid motion stays free of strain:
@@ -151,11 +151,11 @@ pub(super) fn interpolate<const N: usize>(
     arm: [f64; 3],
 ) -> Weights {
     let (direction, arm) = (Vector3::from(direction), Vector3::from(arm));
-    let way = |k: usize| 0.125 * p[k] * (nodes[(k + 1) % N] - nodes[k]);
+    let lift = |k: usize| 0.125 * p[k] * (nodes[(k + 1) % N] - nodes[k]);
     let mut row = Weights::with_capacity(6 * N);
     for (i, n) in n.iter().enumerate() {
         // direction · (r × arm + g × r) = r · (arm × direction + direction × g).
-        let g = way((i + N - 1) % N) - way(i);
+        let g = lift((i + N - 1) % N) - lift(i);
         let about = *n * arm.cross(&direction) + direction.cross(&g);
         let all = [n * direction.x, n * direction.y, n * direction.z, about.x, about.y, about.z];
         row.extend(all.into_iter().enumerate().filter(|(_, w)| *w != 0.0).map(|(freedom, w)| (6 * i + freedom, w)));

@@ -88,12 +88,12 @@ pub(super) fn stiffness(corners: &[[f64; 2]; 4], plate: &Plate) -> Matrix12 {
     for i in 0..4 {
         let j = (i + 1) % 4;
         let (a, b) = (corners[i], corners[j]);
-        let way = [b[0] - a[0], b[1] - a[1]];
+        let chord = [b[0] - a[0], b[1] - a[1]];
         // n L.
-        let normal = [way[1], -way[0]];
+        let normal = [chord[1], -chord[0]];
         for (s, weight) in GAUSS.map(|(x, w)| (0.5 * (1.0 + x), 0.5 * w)) {
             let bubble = 0.5 * s * (1.0 - s);
-            for (g, p) in g.iter_mut().zip(stresses(a[0] + s * way[0], a[1] + s * way[1])) {
+            for (g, p) in g.iter_mut().zip(stresses(a[0] + s * chord[0], a[1] + s * chord[1])) {
                 let traction = [p[0] * normal[0] + p[2] * normal[1], p[2] * normal[0] + p[1] * normal[1]];
                 let swing = weight * bubble * (traction[0] * normal[0] + traction[1] * normal[1]);
                 for (corner, share, swing) in [(i, 1.0 - s, -swing), (j, s, swing)] {
@@ -104,8 +104,8 @@ pub(super) fn stiffness(corners: &[[f64; 2]; 4], plate: &Plate) -> Matrix12 {
             }
         }
         for corner in [i, j] {
-            drilling[3 * corner] -= 0.25 * way[0];
-            drilling[3 * corner + 1] -= 0.25 * way[1];
+            drilling[3 * corner] -= 0.25 * chord[0];
+            drilling[3 * corner + 1] -= 0.25 * chord[1];
         }
         drilling[3 * i + 2] += turned[i];
     }

@@ -76,7 +76,7 @@ fn the_element_does_not_know_where_its_numbering_begins() {
         let turned = Shell4::new(nodes, PLATE).unwrap().matrices();
         same(&both()[0].0, &turned, |i| (i + first) % 4);
     }
-    // The other way round: the normal turns over.
+    // In the opposite order: the normal turns over.
     let turned = Shell4::new([QUAD[0], QUAD[3], QUAD[2], QUAD[1]], PLATE).unwrap().matrices();
     same(&both()[0].0, &turned, |i| (4 - i) % 4);
     let turned = Shell3::new([TRIANGLE[1], TRIANGLE[2], TRIANGLE[0]], PLATE).unwrap().matrices();
