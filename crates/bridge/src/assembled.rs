@@ -31,9 +31,9 @@ pub type Names = Box<dyn Fn(usize) -> String + Send + Sync>;
 /// A monitored point: its rows in [`Assembled::monitors`].
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Monitor {
-    /// Name.
+    /// Name in the interface: `point[NAME]`.
     pub name: String,
-    /// Displacement.
+    /// Row of the displacement.
     pub motion: usize,
     /// Bending moment.
     pub moment: Option<usize>,

@@ -115,15 +115,15 @@ struct FullStep {
     system: Arc<Full>,
     newmark: Newmark,
     factor: Factor,
-    /// m.
+    /// Factor m on the mass.
     mass: f64,
-    /// α′.
+    /// α′ of the module comment, 1/s.
     alpha: f64,
-    /// γ′.
+    /// γ′ of the module comment.
     dashpots: f64,
     /// kβ/c_K.
     share: f64,
-    /// 2ζω.
+    /// 2ζω of the damped modes, 1/s.
     rates: Vec<f64>,
     /// Diagonal of the closed form, over m.
     corrections: Vec<f64>,

@@ -28,7 +28,7 @@ pub struct Report {
     pub model: Option<SelfCheck>,
     /// What imported files hold.
     pub files: Option<Inspection>,
-    /// Mass, kg.
+    /// Total mass, kg.
     pub mass: f64,
     /// What rounding leaves of static displacements.
     pub condition: Option<Condition>,

@@ -9,17 +9,17 @@ use crate::structure::Structure;
 /// Values of the parameters, in the order of their group.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Parameters {
-    /// ζ.
+    /// Damping ratio ζ.
     pub damping_ratio: f64,
-    /// k.
+    /// Factor k on the stiffness.
     pub stiffness_factor: f64,
-    /// m.
+    /// Factor m on the mass.
     pub mass_factor: f64,
-    /// h, s.
+    /// Step h that is factorised for, s.
     pub step_size: f64,
-    /// γ.
+    /// Newmark's γ.
     pub gamma: f64,
-    /// β.
+    /// Newmark's β.
     pub beta: f64,
 }
 

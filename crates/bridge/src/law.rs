@@ -8,13 +8,13 @@ use ttb_scenario::types::{Damping, RayleighAt};
 /// Stiffness, mass and damping under the parameters in force.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Law {
-    /// k.
+    /// Factor k on the stiffness.
     pub stiffness: f64,
-    /// m.
+    /// Factor m on the mass.
     pub mass: f64,
-    /// α, 1/s.
+    /// Rayleigh's α, 1/s.
     pub alpha: f64,
-    /// β, s.
+    /// Rayleigh's β, s.
     pub beta: f64,
     /// 2ζω of the lowest modes, 1/s; empty without modal damping.
     pub rates: Vec<f64>,
@@ -35,7 +35,7 @@ impl Law {
     }
 }
 
-/// ζ of a specification.
+/// The damping ratio ζ of a specification.
 pub fn ratio(damping: &Damping) -> f64 {
     match damping {
         Damping::None => 0.0,

@@ -94,7 +94,7 @@ impl Lazy {
         }
     }
 
-    /// S.
+    /// S: what the outside sees of unit forces on the supports.
     pub fn compliance(&self) -> &Dense {
         &self.compliance
     }

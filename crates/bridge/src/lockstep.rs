@@ -97,7 +97,7 @@ impl Lockstep {
         r.iter_mut().zip(group.chunks_exact(LANES)).for_each(|(r, free)| *r += free[run % LANES]);
     }
 
-    /// S.
+    /// S: what the outside sees of unit forces on the supports.
     pub fn compliance(&self) -> &Dense {
         self.lazy.compliance()
     }

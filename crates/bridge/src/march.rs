@@ -31,7 +31,7 @@ const KEPT: usize = 2;
 /// Support forces over a macro step.
 #[derive(Clone, Copy, Debug)]
 pub struct Forces<'a> {
-    /// v, N.
+    /// The value v of every support force, N.
     pub values: &'a [f64],
     /// v̇, N/s; `None`: held.
     pub rates: Option<&'a [f64]>,
@@ -57,7 +57,7 @@ struct Kept {
 /// Steps a structure under a law.
 pub struct March {
     law: Law,
-    /// Step sizes.
+    /// How macro steps divide, and the factorised sizes in use.
     pub steps: Steps,
     kept: Vec<Kept>,
     bases: Pool<Base>,

@@ -7,14 +7,14 @@ use ttb_contract::ModelError;
 use ttb_dynamics::frame::FrameElement;
 use ttb_sparse::Assembly;
 
-/// A node.
+/// A node of the plane structure.
 #[derive(Clone, Debug)]
 pub struct Node {
     /// For messages, and for monitored points.
     pub name: String,
     /// From the bridge's begin, m.
     pub x: f64,
-    /// Down, m.
+    /// Depth below the bridge's begin, m, positive down.
     pub z: f64,
     /// Held directions x, z, rotation.
     pub fixed: [bool; 3],
@@ -34,13 +34,13 @@ pub struct Element {
 /// A numbered structure.
 #[derive(Clone, Debug)]
 pub struct Mesh {
-    /// Nodes.
+    /// All nodes; elements refer to them by position.
     pub nodes: Vec<Node>,
-    /// Elements.
+    /// All elements.
     pub elements: Vec<Element>,
     /// Degrees of freedom of each node.
     pub dofs: Vec<[Option<u32>; 3]>,
-    /// Their number.
+    /// Number of degrees of freedom.
     pub ndof: usize,
 }
 
@@ -82,7 +82,7 @@ impl Mesh {
         [a, b, c, d, e, f]
     }
 
-    /// K and M.
+    /// K and M of all elements, to be factorised.
     pub fn assembly(&self) -> Assembly {
         let mut assembly = Assembly::new(self.ndof);
         for element in &self.elements {

@@ -20,7 +20,7 @@ use crate::structure::Structure;
 /// Name of the specification among an FMU's resources.
 const RESOURCE: &str = "bridge.json";
 
-/// A bridge.
+/// A bridge that can be stepped, saved and restored.
 pub struct Bridge {
     interface: Interface,
     prepared: Arc<Prepared>,

@@ -27,7 +27,7 @@ struct Known {
 /// A bridge without a run.
 pub struct Prepared {
     spec: BridgeSpec,
-    /// Its equations.
+    /// Equations and rows.
     pub structure: Structure,
     /// The last used first. Locked while a step is factorised, never while one is taken: every bridge holds what it uses.
     steps: Mutex<Vec<Known>>,

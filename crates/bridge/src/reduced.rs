@@ -24,12 +24,12 @@ pub struct Reduced {
 }
 
 impl Reduced {
-    /// From the ω².
+    /// Equations of the ω² given, (rad/s)².
     pub fn new(omega2: Vec<f64>) -> Self {
         Self { omega2 }
     }
 
-    /// The ω².
+    /// ω² of all coordinates, (rad/s)².
     pub fn omega2(&self) -> &[f64] {
         &self.omega2
     }
@@ -70,11 +70,11 @@ impl System for Reduced {
 
 struct ReducedStep {
     newmark: Newmark,
-    /// m.
+    /// Factor m on the mass.
     mass: f64,
-    /// c.
+    /// Damping c of every coordinate, 1/s.
     rates: Vec<f64>,
-    /// 1/K̂.
+    /// Reciprocals of K̂, one a coordinate.
     inverse: Vec<f64>,
     rows: Arc<Rows>,
     compliance: Option<Dense>,

@@ -43,9 +43,9 @@ const PROBE: usize = 160;
 /// What a reduction kept and how wrong it is.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Accuracy {
-    /// Modes.
+    /// Number of natural modes kept.
     pub modes: usize,
-    /// Pseudo-modes.
+    /// Number of pseudo-modes kept.
     pub pseudo_modes: usize,
     /// Highest frequency of the modes, Hz.
     pub highest_frequency: f64,
@@ -57,11 +57,11 @@ pub struct Accuracy {
 
 /// A reduced model.
 pub struct Built {
-    /// Its equations.
+    /// The equations in reduced coordinates.
     pub system: Reduced,
-    /// Its rows.
+    /// Supports and monitored points, seen in these coordinates.
     pub rows: Rows,
-    /// Its error.
+    /// The error under the probe load.
     pub accuracy: Accuracy,
     /// What the user should know of it.
     pub remark: Option<String>,

@@ -20,7 +20,7 @@ use crate::system::System;
 
 /// How a structure is solved.
 pub struct Solver {
-    /// The equations.
+    /// The equations, ready for steps.
     pub system: Arc<dyn System>,
     /// R, over the unknowns.
     pub rows: Rows,

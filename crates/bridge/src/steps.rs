@@ -17,7 +17,7 @@ const KEPT: usize = 4;
 /// The nominal step, how a macro step divides, and the factorised sizes in use, the last used first.
 #[derive(Default)]
 pub struct Steps {
-    /// s.
+    /// Nominal step, s.
     nominal: f64,
     gamma: f64,
     beta: f64,

@@ -29,7 +29,7 @@ pub struct Stored {
     version: u32,
     /// Degrees of freedom of the finite-element model.
     pub ndof: usize,
-    /// kg.
+    /// Total mass, kg.
     pub mass: f64,
     /// ω² of the modes that damping needs.
     pub omega2: Vec<f64>,
@@ -55,9 +55,9 @@ impl Equations {
 
 /// What a file gives back.
 pub struct Restored {
-    /// The equations.
+    /// The equations, in the form they are solved in.
     pub system: Arc<dyn System>,
-    /// R.
+    /// Rows R of supports and monitored points.
     pub rows: Rows,
     /// The matrices, unless the model is reduced.
     pub pencil: Option<Arc<Pencil>>,
@@ -74,7 +74,7 @@ pub enum Source {
     },
     /// Modal coordinates.
     Reduced {
-        /// Their ω².
+        /// ω² of the coordinates, (rad/s)².
         omega2: Vec<f64>,
     },
 }

@@ -20,7 +20,7 @@ use crate::stored::{Restored, Source, Stored};
 use crate::system::System;
 use crate::{imported, plane, space};
 
-/// The structure.
+/// Equations and rows of a bridge.
 pub struct Structure {
     /// Degrees of freedom of the finite-element model.
     pub ndof: usize,
@@ -31,7 +31,7 @@ pub struct Structure {
     /// ω² of the modes that damping or reduction need, lowest first.
     omega2: Vec<f64>,
     damping: Damping,
-    /// Its equations.
+    /// The equations, in the form they are solved in.
     pub system: Arc<dyn System>,
     /// R: one row per support, then those of the monitored points.
     pub rows: Arc<Rows>,

@@ -32,7 +32,7 @@ pub struct Base {
     pub motion: Motion,
     /// p, as the system keeps it.
     pub load: Vec<f64>,
-    /// g.
+    /// The known part g of the motion at the step's end.
     pub known: Vec<f64>,
     /// Φᵀp, with modal damping.
     pub amplitudes: Vec<f64>,
@@ -61,11 +61,11 @@ impl Base {
 /// Buffers of a step.
 #[derive(Clone, Debug, Default)]
 pub struct Work {
-    /// Over the unknowns.
+    /// One number an unknown.
     pub x: Vec<f64>,
-    /// Over the unknowns.
+    /// One number an unknown.
     pub y: Vec<f64>,
-    /// Of the sweeps.
+    /// Room for the sweeps over the factor.
     pub buffer: Vec<f64>,
 }
 

@@ -27,7 +27,7 @@ impl Band {
     pub fn zeros(n: usize, b: usize) -> Self {
         Self { n, b, rows: vec![0.0; n * (b + 1)] }
     }
-    /// Order.
+    /// Number of rows.
     pub fn order(&self) -> usize {
         self.n
     }

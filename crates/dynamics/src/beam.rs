@@ -20,13 +20,13 @@ pub type Matrix4 = [[f64; 4]; 4];
 /// Cross-section of a beam in bending.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Beam {
-    /// EI, N m².
+    /// Bending stiffness EI, N m².
     pub bending_stiffness: f64,
-    /// m, kg/m.
+    /// Mass per length m, kg/m.
     pub mass: f64,
     /// κGA, N; `None`: Euler–Bernoulli.
     pub shear_stiffness: Option<f64>,
-    /// ρI, kg m.
+    /// Rotary inertia per length ρI, kg m.
     pub rotary_inertia: f64,
 }
 

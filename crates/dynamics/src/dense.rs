@@ -16,7 +16,7 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Dense<T = f64> {
     columns: usize,
-    /// By rows.
+    /// Numbers, row by row.
     data: Vec<T>,
 }
 
@@ -27,7 +27,7 @@ impl Dense {
     /// No rows, no columns.
     pub const EMPTY: Self = Self { columns: 0, data: Vec::new() };
 
-    /// Zeros.
+    /// A matrix of zeros.
     pub fn zeros(rows: usize, columns: usize) -> Self {
         Self { columns, data: vec![0.0; rows * columns] }
     }
@@ -37,7 +37,7 @@ impl Dense {
         &mut self.data[i * self.columns..(i + 1) * self.columns]
     }
 
-    /// Rounded.
+    /// The same matrix, rounded to single precision.
     pub fn single(&self) -> Dense<f32> {
         Dense { columns: self.columns, data: self.data.iter().map(|x| *x as f32).collect() }
     }

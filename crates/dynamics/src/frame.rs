@@ -28,7 +28,7 @@ pub type Row6 = SVector<f64, 6>;
 pub struct FrameElement {
     /// Cross-section in bending; its mass also moves axially.
     pub beam: Beam,
-    /// EA, N.
+    /// Axial stiffness EA, N.
     pub axial_stiffness: f64,
     /// Components (x, z) of the distance from the first to the second node, m.
     pub span: [f64; 2],
@@ -43,7 +43,7 @@ impl FrameElement {
         Self { beam, axial_stiffness, span, hinged: [true; 2] }
     }
 
-    /// l, m.
+    /// Length l, m.
     pub fn length(&self) -> f64 {
         self.span[0].hypot(self.span[1])
     }

@@ -12,13 +12,13 @@
 /// The constants of one step size.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Newmark {
-    /// γ.
+    /// Newmark's γ: 1/2 without numerical damping.
     pub gamma: f64,
-    /// β.
+    /// Newmark's β: 1/4 for the trapezoidal rule.
     pub beta: f64,
-    /// h, s.
+    /// Step h, s.
     pub h: f64,
-    /// a₀ … a₅.
+    /// The constants a₀ … a₅.
     pub a: [f64; 6],
 }
 
@@ -64,11 +64,11 @@ impl Newmark {
 /// Displacements, velocities and accelerations of a system.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Motion {
-    /// u, m or rad.
+    /// Displacements u, m or rad.
     pub u: Vec<f64>,
-    /// u̇.
+    /// Velocities u̇, m/s or rad/s.
     pub v: Vec<f64>,
-    /// ü.
+    /// Accelerations ü, m/s² or rad/s².
     pub a: Vec<f64>,
 }
 

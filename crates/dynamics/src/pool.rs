@@ -3,7 +3,7 @@
 
 use std::sync::Arc;
 
-/// Spare buffers.
+/// Buffers that may be used again once their other holders have dropped them.
 #[derive(Debug)]
 pub struct Pool<T> {
     buffers: Vec<Arc<T>>,

@@ -39,11 +39,11 @@ pub struct Basis {
 
 /// A combination c_K K + c_M M.
 pub struct Shifted<'a> {
-    /// Its factor.
+    /// Factor of the combination.
     pub factor: &'a Factor,
-    /// c_K.
+    /// The factor c_K on K.
     pub stiffness: f64,
-    /// c_M.
+    /// The factor c_M on M.
     pub mass: f64,
 }
 

@@ -32,7 +32,7 @@ pub struct TwistedFactor {
     forward: Vec<Pair>,
     /// Coefficients of the rows before, nearest first.
     backward: Vec<Pair>,
-    /// 1/d.
+    /// Reciprocals of the pivots d.
     inverse: Vec<Pair>,
     /// S⁻¹ by rows.
     middle: Vec<f64>,

@@ -25,13 +25,13 @@ type Row12 = SVector<f64, 12>;
 /// Cross-section and material of a beam.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BeamSection {
-    /// E, N/m².
+    /// Young's modulus E, N/m².
     pub modulus: f64,
-    /// G, N/m².
+    /// Shear modulus G, N/m².
     pub shear_modulus: f64,
-    /// ρ, kg/m³.
+    /// Density ρ, kg/m³.
     pub density: f64,
-    /// A, m².
+    /// Area A of the cross-section, m².
     pub area: f64,
     /// I₂ about axis 2 (bending in the plane 1–3), m⁴.
     pub inertia_2: f64,
@@ -136,7 +136,7 @@ impl Beam3 {
         Ok(Self { section, begin, length, axes, transformation: release * rigid })
     }
 
-    /// l, m.
+    /// Length l, m.
     pub fn length(&self) -> f64 {
         self.length
     }

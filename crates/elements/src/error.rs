@@ -6,9 +6,9 @@ pub enum ElementError {
     /// A property must be positive (or, where it says so, not negative) and finite.
     #[error("its {property} is {value}")]
     Property {
-        /// Which.
+        /// Name of the property.
         property: &'static str,
-        /// As given.
+        /// The value that was given.
         value: f64,
     },
     /// Both ends in one place.
@@ -29,7 +29,7 @@ pub enum ElementError {
          convex quadrilateral"
     )]
     Corner {
-        /// From 1.
+        /// Number of the corner, from 1.
         corner: usize,
         /// Inner angle, degrees, between −180 and 180.
         angle: f64,

@@ -17,7 +17,7 @@ pub struct Matrices {
 }
 
 impl Matrices {
-    /// Zeros.
+    /// Matrices of zeros.
     pub fn zeros(n: usize) -> Self {
         Self { n, k: vec![0.0; n * n], m: vec![0.0; n * n] }
     }

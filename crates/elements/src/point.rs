@@ -34,7 +34,7 @@ impl Spring {
 /// A mass at a node.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Mass {
-    /// kg.
+    /// Mass, kg.
     pub mass: f64,
     /// About x, y, z, kg m².
     pub inertia: [f64; 3],

@@ -52,7 +52,7 @@ impl Truss3 {
         Self::new(ends, ernst_modulus(modulus, area, mass, tension, horizontal) * area, mass)
     }
 
-    /// l, m.
+    /// Length l, m.
     pub fn length(&self) -> f64 {
         self.length
     }

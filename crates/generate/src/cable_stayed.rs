@@ -44,7 +44,7 @@ floor 0.6 m, webs 0.65 m, flanges 1.0 x 0.4 m, cross-beams every 4 m; tower of h
 above the floor; cables every 8 m of girder, each under the tension whose vertical part carries the dead load of 8 m of half \
 the girder, area for 550 N/mm2, E = 1.95e11 N/m2, steel and 5 % of sheath. z = 0 is the middle of the floor.";
 
-/// The model.
+/// The bridge as a finite-element model.
 ///
 /// # Errors
 /// Too few or too many degrees of freedom, a track beside the floor, girders too short.

@@ -51,7 +51,7 @@ pub(crate) fn add(b: &mut Builder, x: f64, girder: &Girder, placed: &Placed, leg
     }
 }
 
-/// w, N/m.
+/// Dead load w of the girder, N/m.
 fn weight(girder: &Girder, x: f64) -> f64 {
     let concrete = girder.trough.area(girder.height(x)) + girder.trough.cross_beam_volume() / plan::BAY;
     (concrete * plan::DENSITY + plan::TRACK_LOAD) * ttb_scenario::GRAVITY

@@ -23,7 +23,7 @@ pub(crate) const TRACK_LOAD: f64 = 67.9e3 / GRAVITY;
 
 /// E of concrete C50, N/m².
 pub(crate) const MODULUS: f64 = 3.45e10;
-/// Its ν.
+/// Poisson's ratio of concrete.
 pub(crate) const POISSON: f64 = 0.2;
 /// Its density: 26 kN/m³, as kg/m³.
 pub(crate) const DENSITY: f64 = 26e3 / GRAVITY;

@@ -3,7 +3,7 @@
 /// What a cross-section is for a beam; `along` and `across` are the two axes of its outline.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Profile {
-    /// A, m².
+    /// Area, m².
     pub area: f64,
     /// Second moment of area for bending that moves the beam along, m⁴.
     pub inertia_along: f64,

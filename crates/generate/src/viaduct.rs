@@ -45,7 +45,7 @@ pub fn simple_span(length: f64, width: f64, depth: f64, dofs: usize) -> Result<M
     viaduct(&Viaduct { spans: 1, span: length, width, depth, dofs, ..Viaduct::default() })
 }
 
-/// The model.
+/// The viaduct as a finite-element model.
 ///
 /// # Errors
 /// Dimensions that make no girder, a track beside the floor, too few or too many degrees of freedom.

@@ -21,9 +21,9 @@ const ROUNDING: f64 = 1e-8;
 /// What a file says of its symmetry.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Symmetry {
-    /// One triangle.
+    /// The file holds one triangle.
     Triangle,
-    /// Both.
+    /// The file holds both triangles.
     Full,
     /// Nothing: both if any place is given from both sides.
     Either,

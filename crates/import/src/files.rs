@@ -46,20 +46,20 @@ pub struct Files {
 /// A file that was read.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FileFacts {
-    /// Its name.
+    /// Name of the file, as given.
     pub file: String,
     /// How it was read.
     pub facts: Facts,
 }
 
-/// A model read.
+/// Matrices and tables of a model.
 #[derive(Clone, Debug)]
 pub struct Imported {
-    /// K.
+    /// Stiffness matrix K.
     pub k: SymmetricMatrix,
-    /// M.
+    /// Mass matrix M.
     pub m: SymmetricMatrix,
-    /// C, if given.
+    /// Damping matrix C, if a file holds one.
     pub c: Option<SymmetricMatrix>,
     /// Node and direction of every row, if known.
     pub dofs: Option<Dofs>,

@@ -12,12 +12,12 @@ const LONGEST: usize = 1 << 16;
 
 /// A line without its end.
 pub(crate) struct Line<'a> {
-    /// From 1.
+    /// Number of the line, from 1.
     pub number: u64,
     pub text: &'a [u8],
 }
 
-/// Reads lines.
+/// Reads a file line by line.
 pub(crate) struct Lines {
     source: Box<dyn Read>,
     buffer: Vec<u8>,

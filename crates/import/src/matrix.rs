@@ -34,7 +34,7 @@ impl SymmetricMatrix {
         (0..self.n).map(|j| first(j).map_or(0.0, |(_, value)| value)).collect()
     }
 
-    /// A x.
+    /// The product A x.
     pub fn product(&self, x: &[f64]) -> Vec<f64> {
         self.fold(x, |a| a)
     }

@@ -9,7 +9,7 @@ pub struct Problem {
     pub file: String,
     /// Line of the file, from 1; absent: the file as a whole.
     pub line: Option<u64>,
-    /// The rule.
+    /// The rule that is broken.
     pub rule: String,
     /// What was found instead.
     pub value: String,
@@ -41,7 +41,7 @@ pub(crate) struct Stop;
 /// Collects the problems of one file.
 pub(crate) struct Report {
     file: String,
-    /// Broken rules.
+    /// The rules that are broken, in the order they were met.
     pub problems: Vec<Problem>,
 }
 

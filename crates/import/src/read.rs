@@ -14,7 +14,7 @@ const SHORTEST: u64 = 4;
 /// How a file was read.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Facts {
-    /// Its format.
+    /// Format that was recognised.
     pub format: Format,
     /// Its length.
     pub bytes: u64,
@@ -24,7 +24,7 @@ pub struct Facts {
     pub asymmetry: f64,
 }
 
-/// A matrix read.
+/// A matrix and what is known of its file.
 #[derive(Clone, Debug)]
 pub struct Matrix {
     /// Its lower triangle.

@@ -42,7 +42,7 @@ fn solve_over(factor: &Factor, block: &mut [f64], reach: Option<&[u32]>) {
     }
 }
 
-/// AᵀB.
+/// The inner products AᵀB of two blocks.
 pub fn inner(a: MatRef<'_, f64>, b: MatRef<'_, f64>) -> Mat<f64> {
     // (BᵀA)ᵀ: half as much again quicker where B is narrow, as it is here.
     let mut product = Mat::zeros(b.ncols(), a.ncols());

@@ -18,9 +18,9 @@ const LEAST_PIVOT: f64 = 1e-13;
 /// A factor: pattern and numbers.
 #[derive(Clone, Debug)]
 pub enum Factor {
-    /// By columns.
+    /// Column by column: small models.
     Simplicial(Arc<simplicial::Pattern>, simplicial::Numbers),
-    /// By panels.
+    /// By dense panels: large models.
     Supernodal(Arc<Pattern>, Numbers),
 }
 

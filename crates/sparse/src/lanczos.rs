@@ -107,7 +107,7 @@ impl<'a> Lanczos<'a> {
         (self.processed()..self.vectors()).map(|i| row(i) * row(i)).sum::<f64>().sqrt()
     }
 
-    /// V s.
+    /// The combination V s of the vectors.
     pub fn combine(&self, s: impl Iterator<Item = f64>) -> Vec<f64> {
         let mut sum = vec![0.0; self.pencil.ndof()];
         s.enumerate().for_each(|(j, s)| add_scaled(s, self.space.vector(j), &mut sum));

@@ -14,7 +14,7 @@ use crate::random::Random;
 /// Modes, lowest first.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Modes {
-    /// ω², (rad/s)².
+    /// Squares of the circular frequencies, ω² in (rad/s)².
     pub omega2: Vec<f64>,
     /// φ, M-normalised (φᵀMφ = 1 kg), each with its largest entry positive.
     pub shapes: Vec<Vec<f64>>,
@@ -33,7 +33,7 @@ pub enum ModesError {
     /// More than there are.
     #[error("{asked} modes were asked for, the model has {available}")]
     TooMany {
-        /// Asked for.
+        /// Number of modes that were asked for.
         asked: usize,
         /// Degrees of freedom with mass.
         available: usize,

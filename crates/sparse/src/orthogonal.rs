@@ -14,7 +14,7 @@ use crate::blocks::inner;
 use crate::pencil::Pencil;
 use crate::vector::{add_scaled, dot};
 
-/// V, by columns.
+/// The vectors V, one behind the other.
 pub(crate) struct Space {
     n: usize,
     vectors: Vec<f64>,
@@ -35,7 +35,7 @@ impl Space {
         self.vectors.len() / self.n.max(1)
     }
 
-    /// v_j.
+    /// Vector j.
     pub fn vector(&self, j: usize) -> &[f64] {
         &self.vectors[j * self.n..(j + 1) * self.n]
     }
@@ -50,7 +50,7 @@ impl Space {
     }
 }
 
-/// M X.
+/// The products M X of vectors one behind the other.
 fn products(x: &[f64], pencil: &Pencil) -> Vec<f64> {
     x.chunks_exact(pencil.ndof()).flat_map(|x| pencil.mass_times(x)).collect()
 }

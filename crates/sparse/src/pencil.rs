@@ -40,7 +40,7 @@ impl Pencil {
     pub fn add_mass(&self, x: &[f64], y: &mut [f64]) {
         self.mass.add_product(x, y);
     }
-    /// M x.
+    /// The product M x.
     pub(crate) fn mass_times(&self, x: &[f64]) -> Vec<f64> {
         let mut y = vec![0.0; x.len()];
         self.add_mass(x, &mut y);
@@ -57,7 +57,7 @@ impl Pencil {
         }
         sums.into_iter().map(|[sum, rest]| sum + rest).collect()
     }
-    /// |x|ᵀ|K||x|.
+    /// The sum |x|ᵀ|K||x| of the magnitudes of all terms of the strain energy, twice.
     pub fn stiffness_of_magnitudes(&self, x: &[f64]) -> f64 {
         let term = |(i, j, k): (usize, usize, f64)| if i == j { 1.0 } else { 2.0 } * (k * x[i] * x[j]).abs();
         self.stiffness_entries().map(term).sum()

@@ -16,9 +16,9 @@ pub struct Raw {
     pub starts: Vec<u32>,
     /// Rows, the diagonal first in each column.
     pub rows: Vec<u32>,
-    /// K.
+    /// Numbers of K, in the order of `rows`.
     pub k: Vec<f64>,
-    /// M.
+    /// Numbers of M, in the same order.
     pub m: Vec<f64>,
     /// Entries (row, column, number) of C by columns.
     pub damping: Vec<(u32, u32, f64)>,

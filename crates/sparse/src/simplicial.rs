@@ -55,12 +55,12 @@ impl Pattern {
     }
 }
 
-/// L and D.
+/// The numbers of L and D.
 #[derive(Clone, Debug)]
 pub struct Numbers {
     /// L below the diagonal, by columns.
     l: Vec<f64>,
-    /// 1/D.
+    /// Reciprocals of the diagonal D.
     inverse_d: Vec<f64>,
 }
 

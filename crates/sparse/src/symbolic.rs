@@ -22,9 +22,9 @@ const LARGE: usize = 3000;
 /// Order and pattern of the factor.
 #[derive(Clone, Debug)]
 pub enum Symbolic {
-    /// By columns.
+    /// The factor goes column by column: small models.
     Simplicial(Arc<simplicial::Pattern>),
-    /// By panels.
+    /// The factor goes by dense panels: large models.
     Supernodal(Arc<Pattern>),
 }
 

@@ -2,7 +2,7 @@
 
 const LANES: usize = 8;
 
-/// aᵀ b.
+/// The inner product aᵀ b, in eight partial sums.
 pub fn dot(a: &[f64], b: &[f64]) -> f64 {
     let (mut lanes, (a, b)) = ([0.0; LANES], (a.chunks_exact(LANES), b.chunks_exact(LANES)));
     let rest: f64 = a.remainder().iter().zip(b.remainder()).map(|(a, b)| a * b).sum();

@@ -2,7 +2,7 @@
 
 use ttb_elements::{Beam3, Mass, Matrices, Shell3, Shell4, Spring, Truss3};
 
-/// An element.
+/// An element of the model, ready to give its matrices.
 pub(super) enum Kind {
     Beam { beam: Box<Beam3>, released: bool },
     Truss(Truss3),

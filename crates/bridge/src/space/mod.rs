@@ -105,7 +105,7 @@ struct System<'a> {
     freedoms: &'a Freedoms,
     equations: Assembly,
     stiffness: Diagonal,
-    /// kg.
+    /// Mass so far, kg.
     mass: f64,
 }
 

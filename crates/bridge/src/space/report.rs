@@ -51,7 +51,7 @@ pub struct SelfCheck {
     pub elements: usize,
     /// Number of degrees of freedom.
     pub freedoms: usize,
-    /// kg.
+    /// Mass of the model, kg.
     pub mass: f64,
     /// Centre of mass, m.
     pub centre: [f64; 3],

@@ -5,11 +5,11 @@ use crate::error::{ElementError, not_negative, positive};
 /// Material and thickness of a shell.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Plate {
-    /// E, N/m².
+    /// Young's modulus E, N/m².
     pub modulus: f64,
-    /// ν.
+    /// Poisson's ratio ν.
     pub poisson: f64,
-    /// t, m.
+    /// Thickness t, m.
     pub thickness: f64,
     /// kg/m², non-structural mass included; the rotary inertia is that of this mass spread over the thickness.
     pub mass: f64,
@@ -35,7 +35,7 @@ impl Plate {
         [direct, nu * direct, self.shear_modulus()]
     }
 
-    /// G.
+    /// Shear modulus G, N/m².
     pub(super) fn shear_modulus(&self) -> f64 {
         0.5 * self.modulus / (1.0 + self.poisson)
     }

@@ -9,7 +9,7 @@ use super::{bending, membrane3};
 use crate::error::{ElementError, exceeds};
 use crate::matrices::{Matrices, Weights};
 
-/// A triangle.
+/// A flat shell element of three nodes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Shell3 {
     nodes: [Vector3<f64>; 3],

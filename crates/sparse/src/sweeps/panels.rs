@@ -20,9 +20,9 @@ pub struct Panels<'a> {
 /// Panels in ascending order: all, or some.
 #[derive(Clone, Copy)]
 pub enum Which<'a> {
-    /// All.
+    /// Every panel.
     All,
-    /// These.
+    /// The panels of these numbers.
     Some(&'a [u32]),
 }
 
