@@ -7,7 +7,7 @@ import sys
 import pytest
 from conftest import REPOSITORY
 
-PAGES = [REPOSITORY / "README.md", *sorted((REPOSITORY / "docs").rglob("*.md"))]
+PAGES = [REPOSITORY / "README.md", *sorted((REPOSITORY / "docs").rglob("*.md")), *sorted(REPOSITORY.glob("fmu-*/readme.md"))]
 
 
 def snippets(language):
