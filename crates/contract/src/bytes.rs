@@ -18,7 +18,7 @@ const MARK: &[u8; 8] = b"ttbstat3";
 const FLAGS: usize = 5;
 
 /// A 64-bit number that changes when a byte does (FNV-1a; Fowler, Noll & Vo, RFC 9923).
-fn sum(bytes: &[u8]) -> u64 {
+pub fn sum(bytes: &[u8]) -> u64 {
     bytes.iter().fold(0xcbf2_9ce4_8422_2325, |sum, byte| (sum ^ u64::from(*byte)).wrapping_mul(0x0000_0100_0000_01b3))
 }
 

@@ -8,7 +8,7 @@
 //!   order forces and motions stand in the vectors that a [`Subsystem`] takes and gives.
 //! - [`names`] holds the names of the coupled variables, which both sides and every master use.
 
-mod bytes;
+pub mod bytes;
 pub mod finite;
 pub mod in_process;
 pub mod instance;

@@ -131,6 +131,24 @@ fn damaged_bytes_are_refused() {
 }
 
 #[test]
+fn a_single_wrong_bit_is_refused_wherever_it_is_and_the_instance_goes_on_as_if_nothing_had_been() {
+    let (s, untouched) = (Slave::stepping(), Slave::stepping());
+    s.run(0, 4);
+    untouched.run(0, 4);
+    let mut state = ptr::null_mut();
+    assert_eq!(s.save(&mut state), OK);
+    let bytes = serialize(&s, state);
+    for bit in 0..8 * bytes.len() {
+        let (mut damaged, mut out) = (bytes.clone(), ptr::null_mut());
+        damaged[bit / 8] ^= 1 << (bit % 8);
+        assert_eq!((deserialize(&s, &damaged, &mut out), out), (ERROR, ptr::null_mut()), "bit {bit}");
+        assert!(s.log.text().contains("cannot be read"));
+    }
+    assert_eq!(s.bits(), untouched.bits());
+    assert_eq!(s.run(4, 9), untouched.run(4, 9));
+}
+
+#[test]
 fn a_state_brings_an_instance_back_from_a_panic() {
     let s = Slave::new();
     let mut fresh = ptr::null_mut();

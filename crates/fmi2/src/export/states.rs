@@ -6,17 +6,20 @@
 use super::component::Component;
 use super::guard::{Call, DONE, guard, place, refuse, slice, slice_mut};
 use super::saved::{Progress, SavedState};
-use super::stage::{ALIVE, ALWAYS, READABLE, Stage};
+use super::stage::{ALWAYS, READABLE, Stage, USABLE};
 use crate::types::*;
+use ttb_contract::bytes::sum;
 use ttb_contract::{Model, ModelError};
 
-/// Mark and version of the serialized form; the total length in bytes (u64) follows, then the GUID.
-const MARK: &[u8; 8] = b"ttbfmu02";
+/// Mark and version of the serialized form; the total length in bytes (u64) follows, then the GUID, then the sum of
+/// all that is behind it: stop time and stage are not under the sum of the instance's own bytes.
+const MARK: &[u8; 8] = b"ttbfmu03";
 const GUID_LENGTH: usize = 38;
-const HEAD: usize = MARK.len() + 8 + GUID_LENGTH;
+const SUM: usize = MARK.len() + 8 + GUID_LENGTH;
+const HEAD: usize = SUM + 8;
 const PROGRESS: usize = 2 * 8 + 2;
 /// A failed step or a panic leaves nothing worth saving.
-const SAVEABLE: u8 = ALIVE | Stage::Terminated as u8;
+const SAVEABLE: u8 = USABLE | Stage::Terminated as u8;
 
 impl<M: Model> Component<M> {
     fn find(&self, handle: fmi2FMUstate) -> Result<usize, ModelError> {
@@ -44,6 +47,7 @@ impl<M: Model> Component<M> {
         let mut bytes = MARK.to_vec();
         bytes.extend([0; 8]); // the length, known at the end
         bytes.extend(self.guid.as_bytes());
+        bytes.extend([0; HEAD - SUM]); // the sum, at the very end
         for x in [start, stop.unwrap_or(0.0)] {
             bytes.extend(x.to_le_bytes());
         }
@@ -51,6 +55,8 @@ impl<M: Model> Component<M> {
         bytes.extend(self.instance.to_bytes(&state.snapshot));
         let length = bytes.len() as u64;
         bytes[MARK.len()..MARK.len() + 8].copy_from_slice(&length.to_le_bytes());
+        let sum = sum(&bytes[HEAD..]);
+        bytes[SUM..HEAD].copy_from_slice(&sum.to_le_bytes());
         bytes
     }
 
@@ -64,8 +70,11 @@ impl<M: Model> Component<M> {
         if length != bytes.len() as u64 {
             return wrong(&format!("it has {} bytes, not the {length} that it was written with", bytes.len()));
         }
-        if &bytes[HEAD - GUID_LENGTH..HEAD] != self.guid.as_bytes() {
+        if &bytes[SUM - GUID_LENGTH..SUM] != self.guid.as_bytes() {
             return wrong("it belongs to an FMU with another GUID");
+        }
+        if u64::from_le_bytes(number(SUM)) != sum(&bytes[HEAD..]) {
+            return wrong("its sum does not fit its bytes: it was damaged");
         }
         let real = |i: usize| f64::from_le_bytes(number(HEAD + 8 * i));
         let [has_stop, terminated] = [bytes[HEAD + 16] != 0, bytes[HEAD + 17] != 0];
