@@ -269,8 +269,8 @@ fn model_structure(xml: &mut Xml, interface: &Interface) -> io::Result<()> {
             for reference in interface.outputs() {
                 let index = (reference + 1).to_string();
                 let element = xml.create_element("Unknown").with_attribute(("index", index.as_str()));
-                let truthful = interface.variables()[reference].feed_through;
-                let element = if truthful { element } else { element.with_attribute(("dependencies", "")) };
+                let feeds_through = interface.variables()[reference].feed_through;
+                let element = if feeds_through { element } else { element.with_attribute(("dependencies", "")) };
                 element.write_empty()?;
             }
             Ok(())

@@ -12,7 +12,7 @@ use crate::version::{Library, Version};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// An FMU ready to be instantiated. Instances keep what they need of it alive.
+/// An FMU ready to be instantiated. Instances keep what they need of it.
 pub struct Fmu {
     version: &'static Version,
     description: Arc<ModelDescription>,
@@ -79,7 +79,7 @@ impl Fmu {
                 (slave.ok_or_else(none)?, time)
             }
             Home::Apart { fmu, isolation } => isolate::start(
-                &isolate::Birth { name, fmu, description: &description, folder: self.folder.path(), logging },
+                &isolate::Instantiation { name, fmu, description: &description, folder: self.folder.path(), logging },
                 self.version,
                 isolation,
                 &sink,

@@ -1,4 +1,4 @@
-//! Foreign FMUs with bad manners: every one of them becomes a clear error, and nothing leaks.
+//! Foreign FMUs with faults: every one of them becomes a clear error, and nothing leaks.
 #![cfg(feature = "import")]
 #![allow(clippy::undocumented_unsafe_blocks)] // a test reads a counter of a library it has just made
 
@@ -199,7 +199,7 @@ fn what_an_fmu_cannot_do_is_an_error_not_a_crash() {
     assert_eq!(error, "poor: it has no variable gear");
     // A capability declared but not there does not count.
     let made = foreign(CAPABLE, true);
-    let instance = stepping(&ttb_fmi2::import::open(&made.path).unwrap(), "liar");
+    let instance = stepping(&ttb_fmi2::import::open(&made.path).unwrap(), "declares");
     assert!(!instance.can_restore() && !instance.can_interpolate());
 }
 

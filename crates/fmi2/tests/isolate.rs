@@ -135,14 +135,14 @@ fn the_end_of_the_process_is_an_error_that_names_call_time_and_signal() {
         assert_eq!(after, format!("{name}: fmi2GetReal was not made: the FMU's process is gone"));
     }
     assert_eq!(*lines.lock().unwrap(), ["abort: giving up"]);
-    let error = begin(&fmu, "crash-at-birth").err().unwrap().to_string();
-    assert_eq!(error, "crash-at-birth: fmi2Instantiate: its process was killed by signal 11 (SIGSEGV)");
+    let error = begin(&fmu, "crash-at-wanted").err().unwrap().to_string();
+    assert_eq!(error, "crash-at-wanted: fmi2Instantiate: its process was killed by signal 11 (SIGSEGV)");
 }
 
 #[test]
 fn a_process_killed_from_outside_is_noticed_at_the_next_call() {
     let (fmu, _) = isolated(&capable(), 10.0);
-    let mut instance = begin(&fmu, "victim").unwrap();
+    let mut instance = begin(&fmu, "killed").unwrap();
     instance.do_step(0.0, 0.25, true).unwrap();
     // The host of this test is the one whose program has the folder of this FMU open.
     let library = fmu.folder().join("binaries/linux64/Foreign.so");
@@ -151,7 +151,7 @@ fn a_process_killed_from_outside_is_noticed_at_the_next_call() {
     let pid = host.file_name().unwrap().to_str().unwrap();
     assert!(std::process::Command::new("kill").args(["-KILL", pid]).status().unwrap().success());
     let error = instance.get_real(&[0], &mut [0.0]).unwrap_err().to_string();
-    assert_eq!(error, "victim: fmi2GetReal at t = 0.25 s: its process was killed by signal 9 (SIGKILL)");
+    assert_eq!(error, "killed: fmi2GetReal at t = 0.25 s: its process was killed by signal 9 (SIGKILL)");
     drop(instance);
     assert!(!host.exists(), "a zombie is left");
 }
@@ -161,8 +161,8 @@ fn a_bad_end_after_all_is_told_to_the_listener() {
     let made = capable();
     let (fmu, lines) = isolated(&made, 0.3);
     for (name, how) in [
-        ("crash-at-death", "was killed by signal 11 (SIGSEGV)"),
-        ("hang-at-death", "gave no answer within 0.3 s and was killed"),
+        ("crash-at-end", "was killed by signal 11 (SIGSEGV)"),
+        ("hang-at-end", "gave no answer within 0.3 s and was killed"),
     ] {
         drop(begin(&fmu, name).unwrap());
         assert_eq!(lines.lock().unwrap().pop().unwrap(), format!("{name}: fmi2FreeInstance: its process {how}"));

@@ -1,4 +1,4 @@
-//! The life of an instance behind the C interface: birth, stages, failure, panic, death.
+//! The life of an instance behind the C interface: wanted, stages, failure, panic, death.
 #![allow(clippy::undocumented_unsafe_blocks)] // a test calls C functions on instances it has just made
 
 mod harness;

@@ -63,7 +63,7 @@ pub struct FmuInstance {
 }
 
 impl FmuInstance {
-    /// Around a slave that took `time` to come alive.
+    /// Around a slave that took `time` to be made.
     pub(crate) fn new(
         name: &str,
         version: &'static Version,

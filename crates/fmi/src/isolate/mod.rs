@@ -52,7 +52,7 @@ pub use nowhere::host;
 pub(crate) use nowhere::start;
 #[cfg(target_os = "linux")]
 pub(crate) use remote::start;
-pub(crate) use settings::Birth;
+pub(crate) use settings::Instantiation;
 pub use settings::{Isolation, Listener};
 
 /// Whether FMUs can be isolated on this system.

@@ -1,6 +1,6 @@
 //! A system without isolation.
 
-use super::settings::{Birth, Isolation};
+use super::settings::{Instantiation, Isolation};
 use crate::error::FmuError;
 use crate::log::Sink;
 use crate::slave::Slave;
@@ -20,11 +20,11 @@ pub fn host(_version: &'static Version) -> Result<(), String> {
 /// # Errors
 /// Always.
 pub(crate) fn start(
-    birth: &Birth,
+    wanted: &Instantiation,
     _version: &'static Version,
     _isolation: &Isolation,
     _sink: &Sink,
 ) -> Result<(Box<dyn Slave>, Duration), FmuError> {
     let what = "FMUs can be isolated on Linux only".to_string();
-    Err(FmuError::Impossible { instance: birth.name.to_string(), what })
+    Err(FmuError::Impossible { instance: wanted.name.to_string(), what })
 }

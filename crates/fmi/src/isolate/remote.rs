@@ -2,7 +2,7 @@
 
 use super::call::Op;
 use super::exchange::Exchange;
-use super::settings::{Birth, Isolation};
+use super::settings::{Instantiation, Isolation};
 use crate::error::FmuError;
 use crate::library::LibraryError;
 use crate::log::Sink;
@@ -17,13 +17,13 @@ use std::time::Duration;
 /// # Errors
 /// The process cannot be started or ends, the library cannot be loaded, the FMU gives no instance.
 pub(crate) fn start(
-    birth: &Birth,
+    wanted: &Instantiation,
     version: &'static Version,
     isolation: &Isolation,
     sink: &Sink,
 ) -> Result<(Box<dyn Slave>, Duration), FmuError> {
-    let instance = || birth.name.to_string();
-    let begun = Exchange::begin(birth.name, isolation.clone());
+    let instance = || wanted.name.to_string();
+    let begun = Exchange::begin(wanted.name, isolation.clone());
     let mut remote = begun.map_err(|e| FmuError::Impossible {
         instance: instance(),
         what: format!("its process cannot be started ({}): {e}", isolation.program.display()),
@@ -32,18 +32,18 @@ pub(crate) fn start(
         let how = remote.end.clone()?;
         Some(FmuError::Gone { instance: instance(), call: call.into(), how, messages: sink.take() })
     };
-    let identifier = &birth.description.co_simulation.model_identifier;
-    let loaded = remote.send(Op::Load, &[bytes(birth.folder), identifier.as_bytes()], 0);
+    let identifier = &wanted.description.co_simulation.model_identifier;
+    let loaded = remote.send(Op::Load, &[bytes(wanted.folder), identifier.as_bytes()], 0);
     remote.collect(sink);
     if loaded.status != Status::Ok as i32 {
         return Err(gone(&remote, "loading its library").unwrap_or_else(|| {
             let text = String::from_utf8_lossy(&remote.fetch()).into_owned();
-            FmuError::Library { fmu: birth.fmu.to_path_buf(), source: LibraryError::Isolated(text) }
+            FmuError::Library { fmu: wanted.fmu.to_path_buf(), source: LibraryError::Isolated(text) }
         }));
     }
     remote.functions = remote.result();
-    let texts = [birth.name.as_bytes(), birth.description.guid.as_bytes()];
-    let made = remote.send(Op::Instantiate, &texts, u64::from(birth.logging));
+    let texts = [wanted.name.as_bytes(), wanted.description.guid.as_bytes()];
+    let made = remote.send(Op::Instantiate, &texts, u64::from(wanted.logging));
     remote.collect(sink);
     if made.status != Status::Ok as i32 {
         let call = (version.symbol)(Call::Instantiate);

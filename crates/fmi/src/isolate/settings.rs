@@ -22,7 +22,7 @@ pub struct Isolation {
 }
 
 /// What an isolated instance is made of.
-pub struct Birth<'a> {
+pub struct Instantiation<'a> {
     /// Its name.
     pub name: &'a str,
     /// The FMU, for messages.

@@ -19,8 +19,8 @@ pub enum Stage {
 }
 
 /// Before, in and after initialization, between steps.
-pub const ALIVE: u8 = Stage::Instantiated as u8 | Stage::Initialization as u8 | Stage::Stepping as u8;
+pub const USABLE: u8 = Stage::Instantiated as u8 | Stage::Initialization as u8 | Stage::Stepping as u8;
 /// Also with the last step failed or the simulation terminated: reading harms nobody.
-pub const READABLE: u8 = ALIVE | Stage::Failed as u8 | Stage::Terminated as u8;
+pub const READABLE: u8 = USABLE | Stage::Failed as u8 | Stage::Terminated as u8;
 /// Also after a panic: what makes an instance usable again, or takes it away.
 pub const ALWAYS: u8 = READABLE | Stage::Panicked as u8;

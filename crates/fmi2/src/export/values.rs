@@ -4,7 +4,7 @@
 
 use super::component::{Component, Type};
 use super::guard::{Answer, Call, DONE, guard, refuse, slice, slice_mut};
-use super::stage::{ALIVE, READABLE, Stage};
+use super::stage::{READABLE, Stage, USABLE};
 use crate::types::*;
 use ttb_contract::{Model, ModelError};
 
@@ -64,7 +64,7 @@ pub unsafe fn set_real<M: Model>(
     n: usize,
     values: *const fmi2Real,
 ) -> fmi2Status {
-    let call = Call { name: "fmi2SetReal", allowed: ALIVE };
+    let call = Call { name: "fmi2SetReal", allowed: USABLE };
     // SAFETY: by contract.
     unsafe { guard::<M>(c, call, |c| c.set(slice(vr, n)?, Type::Real, slice(values, n)?)) }
 }
@@ -149,7 +149,7 @@ pub unsafe fn set_integer<M: Model>(
 ) -> fmi2Status {
     // SAFETY: by contract.
     unsafe {
-        set_whole::<M>(c, Call { name: "fmi2SetInteger", allowed: ALIVE }, Type::Integer, vr, n, values, f64::from)
+        set_whole::<M>(c, Call { name: "fmi2SetInteger", allowed: USABLE }, Type::Integer, vr, n, values, f64::from)
     }
 }
 
@@ -165,7 +165,7 @@ pub unsafe fn set_boolean<M: Model>(
 ) -> fmi2Status {
     let truth = |value: i32| f64::from(u8::from(value != FMI2_FALSE));
     // SAFETY: by contract.
-    unsafe { set_whole::<M>(c, Call { name: "fmi2SetBoolean", allowed: ALIVE }, Type::Boolean, vr, n, values, truth) }
+    unsafe { set_whole::<M>(c, Call { name: "fmi2SetBoolean", allowed: USABLE }, Type::Boolean, vr, n, values, truth) }
 }
 
 /// There are no strings to read or set; asking for none is fine.
@@ -202,7 +202,7 @@ pub unsafe fn set_input_derivatives<M: Model>(
         DONE
     };
     // SAFETY: by contract.
-    unsafe { guard::<M>(c, Call { name: "fmi2SetRealInputDerivatives", allowed: ALIVE }, work) }
+    unsafe { guard::<M>(c, Call { name: "fmi2SetRealInputDerivatives", allowed: USABLE }, work) }
 }
 
 /// Not provided (`maxOutputDerivativeOrder` is 0); asking for none is fine.
@@ -230,7 +230,7 @@ pub unsafe fn directional_derivative<M: Model>(
     seed: *const fmi2Real,
     out: *mut fmi2Real,
 ) -> fmi2Status {
-    let allowed = ALIVE & !(Stage::Instantiated as u8);
+    let allowed = USABLE & !(Stage::Instantiated as u8);
     let work = |c: &mut Component<M>| {
         // SAFETY: by contract.
         let (unknown, known) = unsafe { (slice(unknown, n_unknown)?, slice(known, n_known)?) };

@@ -1,4 +1,4 @@
-//! FMUs of FMI 2.0, other people's and ours, which get no favours.
+//! FMUs of FMI 2.0, other people's and ours, which are treated alike.
 //!
 //! [`VERSION`] is what [`ttb_fmi`] needs of this version: [`read_description`] reads its descriptions, [`functions`] binds its
 //! libraries, [`local`] calls them. [`open`] gives an [`Fmu`](ttb_fmi::Fmu), [`ttb_fmi::Fmu::instantiate`] an

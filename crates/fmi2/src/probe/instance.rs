@@ -8,7 +8,7 @@ use std::ptr;
 
 /// What an instance is made with.
 #[derive(Clone, Debug)]
-pub struct Birth<'a> {
+pub struct Instantiation<'a> {
     /// Its name.
     pub name: &'a str,
     /// The GUID it is to compare with its own.
@@ -45,8 +45,8 @@ impl Probe {
     ///
     /// # Errors
     /// No instance.
-    pub fn instantiate(&self, birth: &Birth) -> Result<Probed<'_>, Vec<LogEntry>> {
-        (self.announce)(&format!("fmi2Instantiate with the resources {}", birth.resources));
+    pub fn instantiate(&self, wanted: &Instantiation) -> Result<Probed<'_>, Vec<LogEntry>> {
+        (self.announce)(&format!("fmi2Instantiate with the resources {}", wanted.resources));
         let log: &'static Log = Box::leak(Log::new());
         let callbacks: &'static _ = Box::leak(Box::new(fmi2CallbackFunctions {
             logger: Some(LOGGER),
@@ -56,7 +56,7 @@ impl Probe {
             component_environment: ptr::from_ref(log).cast_mut().cast(),
         }));
         let text = |text: &str| CString::new(text).unwrap_or_default();
-        let (name, guid, resources) = (text(birth.name), text(birth.guid), text(birth.resources));
+        let (name, guid, resources) = (text(wanted.name), text(wanted.guid), text(wanted.resources));
         // SAFETY: all pointers are valid; the callbacks and the log are so for ever.
         let component = unsafe {
             (self.functions.instantiate)(
@@ -66,7 +66,7 @@ impl Probe {
                 resources.as_ptr(),
                 callbacks,
                 FMI2_FALSE,
-                fmi2Boolean::from(birth.logging),
+                fmi2Boolean::from(wanted.logging),
             )
         };
         if component.is_null() { Err(log.take()) } else { Ok(Probed { probe: self, component, log }) }

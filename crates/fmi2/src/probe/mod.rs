@@ -9,7 +9,7 @@ mod instance;
 mod log;
 mod symbols;
 
-pub use instance::{Birth, Probed, State};
+pub use instance::{Instantiation, Probed, State};
 pub use log::LogEntry;
 pub use symbols::{Symbols, symbols};
 

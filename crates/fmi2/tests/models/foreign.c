@@ -1,4 +1,4 @@
-/* A foreign FMU in C: n Reals in (value references 0 … n-1), the same out (n … 2n-1) after a step, and bad manners on
+/* A foreign FMU in C: n Reals in (value references 0 … n-1), the same out (n … 2n-1) after a step, and faults on
  * request: the instance name says which. Lacks the optional functions when compiled with -DPOOR. */
 #include <stdio.h>
 #include <stdlib.h>
@@ -27,7 +27,7 @@ void *fmi2Instantiate(const char *name, int type, const char *guid, const char *
         callbacks->logger(callbacks->environment, name, 3, "error", "no licence for %s in %s", guid, resources);
         return NULL;
     }
-    if (strcmp(name, "crash-at-birth") == 0) crash();
+    if (strcmp(name, "crash-at-wanted") == 0) crash();
     instance_t *s = callbacks->allocate(1, sizeof *s);
     s->callbacks = callbacks; /* kept, not copied, as many do */
     strncpy(s->name, name, sizeof s->name - 1);
@@ -41,8 +41,8 @@ void *fmi2Instantiate(const char *name, int type, const char *guid, const char *
 }
 void fmi2FreeInstance(void *c) {
     instance_t *s = c;
-    if (is(s, "crash-at-death")) crash();
-    if (is(s, "hang-at-death")) for (;;) pause();
+    if (is(s, "crash-at-end")) crash();
+    if (is(s, "hang-at-end")) for (;;) pause();
     fmi2_live--; s->callbacks->release(s);
 }
 int fmi2SetupExperiment(void *c, int td, double t, double start, int sd, double stop) { (void)c; (void)td; (void)t; (void)start; (void)sd; (void)stop; return 0; }

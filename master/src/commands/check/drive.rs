@@ -2,7 +2,7 @@
 
 use ttb_fmi::description::{ModelDescription, ScalarVariable, VariableType};
 use ttb_fmi::file_uri;
-use ttb_fmi2::probe::{Birth, LogEntry, Probe, Probed, State};
+use ttb_fmi2::probe::{Instantiation, LogEntry, Probe, Probed, State};
 use ttb_fmi2::types::Status;
 
 use super::context::Context;
@@ -64,9 +64,9 @@ impl Plan {
         self.stop.map_or(wanted, |stop| whole(stop).min(wanted))
     }
 
-    /// How an honest instance is made.
-    pub fn birth(&self) -> Birth<'_> {
-        Birth { name: "Check", guid: &self.guid, resources: &self.resources, logging: false }
+    /// How a right instance is made.
+    pub fn instantiation(&self) -> Instantiation<'_> {
+        Instantiation { name: "Check", guid: &self.guid, resources: &self.resources, logging: false }
     }
 
     /// Inputs by number: references, start values, amplitudes.
@@ -132,12 +132,12 @@ pub struct Drive<'a> {
 impl<'a> Drive<'a> {
     /// A new instance at the start time.
     pub fn fresh(probe: &'a Probe, plan: &'a Plan) -> Result<Self, Finding> {
-        Self::born(probe, plan, &plan.birth())
+        Self::born(probe, plan, &plan.instantiation())
     }
 
     /// As [`Drive::fresh`], otherwise made.
-    pub fn born(probe: &'a Probe, plan: &'a Plan, birth: &Birth) -> Result<Self, Finding> {
-        let instance = probe.instantiate(birth).map_err(|log| {
+    pub fn born(probe: &'a Probe, plan: &'a Plan, wanted: &Instantiation) -> Result<Self, Finding> {
+        let instance = probe.instantiate(wanted).map_err(|log| {
             Finding::error("no-instance", "fmi2Instantiate answers NULL to a right GUID").seen(last(&log))
         })?;
         let mut drive = Self { instance, plan, warnings: 0 };

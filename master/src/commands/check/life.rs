@@ -1,7 +1,7 @@
-//! Loading, birth and end of an instance.
+//! Loading, begin and end of an instance.
 
 use ttb_fmi::file_uri;
-use ttb_fmi2::probe::{Birth, symbols as look_up};
+use ttb_fmi2::probe::{Instantiation, symbols as look_up};
 
 use super::context::Context;
 use super::drive::{Drive, last, open, reference};
@@ -59,7 +59,7 @@ pub fn symbols(context: &Context) -> Result<(), Finding> {
 /// A short run with all messages on.
 pub fn life(context: &Context) -> Result<(), Finding> {
     let (probe, plan) = open(context)?;
-    let mut drive = Drive::born(&probe, &plan, &Birth { logging: true, ..plan.birth() })?;
+    let mut drive = Drive::born(&probe, &plan, &Instantiation { logging: true, ..plan.instantiation() })?;
     let outcome = drive.steps(0..plan.steps(FEW), 0.0);
     let warned = drive.warnings;
     for entry in drive.instance.take_log() {
@@ -85,7 +85,7 @@ pub fn guid(context: &Context) -> Result<(), Finding> {
     let (probe, plan) = open(context)?;
     let wrong = "{deadbeef-dead-beef-dead-beefdeadbeef}";
     for (guid, words) in [(wrong, "a wrong GUID"), ("", "an empty GUID")] {
-        if probe.instantiate(&Birth { guid, ..plan.birth() }).is_ok() {
+        if probe.instantiate(&Instantiation { guid, ..plan.instantiation() }).is_ok() {
             let what =
                 "fmi2Instantiate accepts a GUID that is not its own: a description of another build goes unnoticed";
             context.find(Finding::warning("guid-unchecked", what).seen(format!("accepted {words}")));
@@ -115,8 +115,8 @@ pub fn resources(context: &Context) -> Result<(), Finding> {
         let finding =
             if *standard { Finding::error("resource-uri", what) } else { Finding::warning("resource-uri", what) };
         let form = uri.replace(&plain, "/PATH").replace(&encoded, "/PATH%20WITH%20BLANK");
-        let birth = Birth { resources: uri, ..plan.birth() };
-        let ran = Drive::born(&probe, &plan, &birth).and_then(|mut drive| {
+        let wanted = Instantiation { resources: uri, ..plan.instantiation() };
+        let ran = Drive::born(&probe, &plan, &wanted).and_then(|mut drive| {
             let run = drive.steps(0..plan.steps(FEW), 0.0)?;
             let different = reference.as_ref().and_then(|reference| drive.differ(reference, &run, 1e-9));
             drive.instance.free();
@@ -134,7 +134,7 @@ pub fn resources(context: &Context) -> Result<(), Finding> {
 /// fmi2FreeInstance at moments when masters in trouble call it.
 pub fn free(context: &Context) -> Result<(), Finding> {
     let (probe, plan) = open(context)?;
-    let newborn = || probe.instantiate(&plan.birth()).map_err(|log| Finding::error("no-instance", last(&log)));
+    let newborn = || probe.instantiate(&plan.instantiation()).map_err(|log| Finding::error("no-instance", last(&log)));
     newborn()?.free();
     let mut instance = newborn()?;
     instance.setup_experiment(plan.start, plan.stop);
