@@ -16,12 +16,28 @@ struct Line {
     saved: f64,
     roll_backs: usize,
     steps: Vec<(f64, f64)>,
+    /// What it answers after initialization mode, if that is something else than in it.
+    after: Option<f64>,
+    /// Its gain grows with h².
+    by_step: bool,
 }
 
 impl Line {
     fn new(gain: f64, constant: fn(f64) -> f64) -> Self {
         let (input, rate, output, saved) = (0.0, 0.0, 0.0, 0.0);
-        Self { gain, constant, interpolates: true, input, rate, output, saved, roll_backs: 0, steps: Vec::new() }
+        Self {
+            gain,
+            constant,
+            interpolates: true,
+            input,
+            rate,
+            output,
+            saved,
+            roll_backs: 0,
+            steps: Vec::new(),
+            after: None,
+            by_step: false,
+        }
     }
 }
 
@@ -38,11 +54,13 @@ impl Subsystem for Line {
         Ok(())
     }
     fn exit_initialization(&mut self) -> Result<(), Failure> {
+        self.output = self.after.unwrap_or(self.output);
         Ok(())
     }
     fn step(&mut self, t: f64, h: f64, _may_restore: bool) -> Result<(), Failure> {
         self.steps.push((t, h));
-        self.output = (self.constant)(t + h) + self.gain * (self.input + h * self.rate);
+        let gain = self.gain * if self.by_step { 10.0 * h * h } else { 1.0 };
+        self.output = (self.constant)(t + h) + gain * (self.input + h * self.rate);
         Ok(())
     }
     fn save(&mut self) -> Result<(), Failure> {
@@ -171,4 +189,69 @@ fn a_force_that_is_no_number_stops_the_run_at_its_step() {
     let Err(IterationError::NotFinite { t, side, output, value, .. }) = stopped else { panic!("{stopped:?}") };
     assert_eq!((t, side, output.as_str()), (1.0, Side::TrainTrack, "coupled output number 1"));
     assert!(value.is_nan());
+}
+
+#[test]
+fn the_first_step_starts_from_what_both_sides_say_after_initialization_mode() {
+    let (mut train_track, mut bridge) = pair(0.4);
+    (train_track.after, bridge.after) = (Some(80.0), Some(7.0));
+    bridge.interpolates = false;
+    let mut coupling = Coupling::new(one(), settings());
+    coupling.initialise(&mut train_track, &mut bridge, 0.0).unwrap();
+    assert_eq!(coupling.forces(), [80.0]);
+    coupling.step(&mut train_track, &mut bridge, 0.0, 1.0).unwrap();
+    // The bridge got the mean of 80 and λ, and λ = 200 − 0.4 d, d = (80 + λ)/2.
+    let lambda = (200.0 - 0.2 * 80.0) / 1.2;
+    assert!((coupling.forces()[0] - lambda).abs() < 1e-9, "{:?}", coupling.forces());
+    assert!((bridge.input - 0.5 * (80.0 + lambda)).abs() < 1e-9, "{}", bridge.input);
+}
+
+#[test]
+fn a_residual_is_relative_to_the_answer_or_to_one_axle_load_whichever_is_greater() {
+    let residual = |load: fn(f64) -> f64| {
+        let (mut train_track, mut bridge) = (Line::new(0.0, load), Line::new(1.0, |_| 0.0));
+        let one_pass = Settings { max_iterations: 1, on_failure: OnFailure::Accept, ..settings() };
+        let mut coupling = Coupling::new(one(), one_pass);
+        coupling.initialise(&mut train_track, &mut bridge, 0.0).unwrap();
+        coupling.step(&mut train_track, &mut bridge, 0.0, 1.0).unwrap().residual
+    };
+    // From 100 to 200, of 200; from 0.1 to 0.3, of 1.
+    assert!((residual(|t| 100.0 * (1.0 + t)) - 0.5).abs() < 1e-12);
+    assert!((residual(|t| 0.1 + 0.2 * t) - 0.2).abs() < 1e-12);
+}
+
+#[test]
+fn the_halves_of_a_step_follow_each_other() {
+    // ρ = 3 h² as of a free mass: 3, 0.75, 0.1875 … with h = 1, 0.5, 0.25.
+    let (mut train_track, mut bridge) = (Line::new(-0.3, |t| 100.0 * (1.0 + t)), Line::new(1.0, |_| 0.0));
+    bridge.by_step = true;
+    let halving = Settings {
+        method: Method::FixedPoint,
+        tolerance: 1e-9,
+        max_iterations: 40,
+        on_failure: OnFailure::Halve,
+        ..settings()
+    };
+    let mut coupling = Coupling::new(one(), halving);
+    coupling.initialise(&mut train_track, &mut bridge, 0.0).unwrap();
+    let info = coupling.step(&mut train_track, &mut bridge, 0.0, 1.0).unwrap();
+    assert_eq!((info.outcome, info.halvings), (Outcome::Converged, 3));
+    let mut ends: Vec<f64> = bridge.steps.iter().map(|(t, h)| t + h).collect();
+    ends.dedup();
+    // All of it and its first half in vain, two quarters; its second half in vain, two quarters.
+    assert_eq!(ends, [1.0, 0.5, 0.25, 0.5, 1.0, 0.75, 1.0]);
+    assert!((train_track.steps.last().unwrap().0 - 0.75).abs() < 1e-15);
+}
+
+#[test]
+fn the_work_that_is_counted_is_that_of_forces_and_displacements() {
+    let run = |means: bool| {
+        let (mut train_track, mut bridge) = (Line::new(0.0, |t| 100.0 * (1.0 + t)), Line::new(0.5, |_| 0.0));
+        let mut coupling = Coupling::new(one(), Settings { mean_forces: means, ..settings() });
+        coupling.initialise(&mut train_track, &mut bridge, 0.0).unwrap();
+        coupling.step(&mut train_track, &mut bridge, 0.0, 1.0).unwrap().work.received
+    };
+    // d goes from 50 to 100 as the force from 100 to 200: 150 · 50 as end values, 200 · 50 if 200 is the mean.
+    assert!((run(false) - 7500.0).abs() < 1e-6, "{}", run(false));
+    assert!((run(true) - 1e4).abs() < 1e-6, "{}", run(true));
 }

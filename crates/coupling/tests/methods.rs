@@ -59,6 +59,16 @@ fn derivatives_that_are_not_those_of_the_steps_are_found_out() {
 }
 
 #[test]
+fn derivatives_of_a_bridge_that_holds_its_inputs_are_those_of_the_mean_force() {
+    let (mut train_track, mut bridge) = pair(1.0, 0.0);
+    (bridge.derives, bridge.interpolates) = (true, false);
+    let mut coupling = Coupling::new(ports(), settings(Method::Newton));
+    coupling.initialise(&mut train_track, &mut bridge, 0.0).expect("equilibrium");
+    let info = coupling.step(&mut train_track, &mut bridge, 0.0, H).expect("a step");
+    assert_eq!((info.iterations, coupling.report().model), (2, Some(Source::Derivatives)));
+}
+
+#[test]
 fn auto_leaves_a_weak_coupling_to_quasi_newton_and_takes_newton_where_it_pays() {
     let (weak, coupling) = trials(Method::Auto, 0.001, 0.0, false);
     assert!(mean(&weak) < 3.1, "{weak:?}");

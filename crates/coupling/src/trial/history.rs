@@ -110,4 +110,23 @@ mod tests {
         history.predict(Predictor::Cubic, 0.5, &mut lambda);
         assert_eq!(lambda, [4.0]);
     }
+
+    #[test]
+    fn means_over_steps_belong_to_their_middles() {
+        // f(t) = 2 + t and its square have these means over [a, b].
+        let mean = |a: f64, b: f64| [2.0 + 0.5 * (a + b), (b.powi(3) - a.powi(3)) / (3.0 * (b - a))];
+        let mut history = History::new(2, true);
+        // The run begins on the curve, as if it had been a mean over no time.
+        history.start(&[2.0, 0.0]);
+        let mut t = 0.0;
+        for h in [1.0, 0.5, 0.25] {
+            history.accept(&mean(t, t + h), h);
+            t += h;
+        }
+        let mut lambda = [0.0; 2];
+        history.predict(Predictor::Linear, 0.75, &mut lambda);
+        assert!((lambda[0] - mean(t, t + 0.75)[0]).abs() < 1e-12, "{lambda:?}");
+        history.predict(Predictor::Constant, 0.75, &mut lambda);
+        assert_eq!(lambda, mean(t - 0.25, t));
+    }
 }

@@ -22,6 +22,8 @@ pub struct Side {
     pub derives: bool,
     /// See `derives`.
     pub excess: f64,
+    /// Understands rates of its inputs.
+    pub interpolates: bool,
     /// Refuses to step with an input above this.
     pub strongest: f64,
     /// Output number 3 is infinite from this time on.
@@ -48,6 +50,7 @@ pub fn pair(rho: f64, curvature: f64) -> (Side, Side) {
             at_rest,
             derives,
             excess,
+            interpolates: true,
             strongest,
             infinite_from,
             input,
@@ -155,7 +158,7 @@ impl Subsystem for Side {
         "side"
     }
     fn can_interpolate(&self) -> bool {
-        true
+        self.interpolates
     }
     fn can_derive(&self) -> bool {
         self.derives
