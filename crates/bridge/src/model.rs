@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use ttb_contract::{Interface, Model, ModelError, Values};
+use ttb_contract::{Interface, Model, ModelError, Prepare, Values};
 use ttb_dynamics::newmark::Motion;
 use ttb_dynamics::pool::Pool;
 use ttb_scenario::spec::{BridgeSpec, StructureSpec};
@@ -304,5 +304,20 @@ impl Model for Bridge {
         read_out(&self.prepared.structure, self.march.law().stiffness, &self.march.seen, acceleration, out);
         self.pool.give(&state);
         Ok(())
+    }
+}
+
+impl Prepare for Prepared {
+    type Spec = BridgeSpec;
+    type Model = Bridge;
+
+    fn prepare(spec: &BridgeSpec) -> Result<Arc<Self>, ModelError> {
+        Prepared::new(spec)
+    }
+    fn serves(&self, spec: &BridgeSpec) -> bool {
+        Prepared::serves(self, spec)
+    }
+    fn model(self: &Arc<Self>, spec: &BridgeSpec) -> Result<Bridge, ModelError> {
+        Bridge::over(self, spec)
     }
 }

@@ -17,6 +17,7 @@ pub mod coupled;
 pub mod drive;
 pub mod error;
 pub mod observe;
+pub mod prepared;
 pub mod quantity;
 pub mod sides;
 
@@ -27,5 +28,6 @@ pub use coupled::Coupled;
 pub use drive::{Ended, Plan, Stepping, drive};
 pub use error::RunError;
 pub use observe::{Begin, Moment, Observer, Table};
+pub use prepared::Prepared;
 pub use quantity::Quantity;
 pub use sides::Sides;

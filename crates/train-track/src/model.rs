@@ -4,7 +4,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use ttb_contract::finite::not_finite;
-use ttb_contract::{Interface, Model, ModelError, Values};
+use ttb_contract::{Interface, Model, ModelError, Prepare, Values};
 use ttb_scenario::limits::{MOST_BAYS, MOST_ELEMENTS_PER_BAY};
 use ttb_scenario::spec::TrainTrackSpec;
 
@@ -174,5 +174,22 @@ impl Model for TrainTrack {
         let mut state = State::clone(built.state());
         state.read(bytes).map_err(error)?;
         Ok(Arc::new(state))
+    }
+}
+
+impl Prepare for Prepared {
+    type Spec = TrainTrackSpec;
+    type Model = TrainTrack;
+
+    fn prepare(spec: &TrainTrackSpec) -> Result<Arc<Self>, ModelError> {
+        // What cannot be built at all is refused before a track is.
+        TrainTrack::new(spec.clone())?;
+        Ok(Arc::new(Prepared::new(spec).map_err(error)?))
+    }
+    fn serves(&self, spec: &TrainTrackSpec) -> bool {
+        self.fits(spec, FastenerFactors::default())
+    }
+    fn model(self: &Arc<Self>, spec: &TrainTrackSpec) -> Result<TrainTrack, ModelError> {
+        TrainTrack::from_prepared(spec.clone(), Arc::clone(self))
     }
 }

@@ -17,7 +17,7 @@ use crate::error::Error;
 use crate::files::write;
 use crate::pictures::slopes::{Kind, Slopes};
 use crate::prepare::auto::decided;
-use crate::prepare::fmus;
+use crate::prepare::fmus::{Prepared, prepared};
 
 /// The command.
 pub fn accuracy(arguments: &Accuracy) -> Result<(), Error> {
@@ -34,7 +34,8 @@ pub fn accuracy(arguments: &Accuracy) -> Result<(), Error> {
     }
     std::fs::create_dir_all(folder).map_err(Error::io(folder))?;
     let stop = stop_on_interrupt();
-    let run = |h: f64| histories(&checked, h, arguments.quiet, &stop);
+    let mut prepared = prepared(&checked)?;
+    let mut run = |h: f64| histories(&checked, &mut prepared, h, arguments.quiet, &stop);
     let truth = run(fine)?;
     let mut kinds: BTreeMap<String, Kind> = BTreeMap::new();
     for h in &steps {
@@ -56,11 +57,17 @@ pub fn accuracy(arguments: &Accuracy) -> Result<(), Error> {
 }
 
 /// Runs the scenario at a step; all outputs but those of the supports and the wheels' positions.
-fn histories(checked: &Checked, h: f64, quiet: bool, stop: &AtomicBool) -> Result<Table, Error> {
+fn histories(
+    checked: &Checked,
+    prepared: &mut Prepared,
+    h: f64,
+    quiet: bool,
+    stop: &AtomicBool,
+) -> Result<Table, Error> {
     let mut checked = checked.clone();
     checked.set_steps(Steps { step: h, substeps: checked.steps().substeps });
     let case = Case::of(&checked);
-    let mut sides = fmus::sides(&checked)?;
+    let mut sides = prepared.sides(&checked).map_err(|e| Error::Input(e.to_string()))?;
     let bar = progress_bar(case.axis().steps(), quiet).with_prefix(format!("{:.4} ms ", 1e3 * h));
     let mut tell = |n| bar.set_position(n);
     let (mut table, mut progress) = (Table::default(), Progress::new(&mut tell, stop));

@@ -3,12 +3,12 @@
 use std::path::{Path, PathBuf};
 
 use ttb_bridge::Bridge;
-use ttb_contract::{Model, ModelError};
+use ttb_contract::Model;
 use ttb_fmi::temporary::Temporary;
 use ttb_model_description::package::LIBRARY_EXTENSION;
 use ttb_model_description::{About, Contents, Date, pack};
 use ttb_scenario::Checked;
-use ttb_session::{Case, Sides};
+use ttb_session::Sides;
 use ttb_train_track::TrainTrack;
 
 use crate::error::Error;
@@ -65,12 +65,17 @@ pub fn build(checked: &Checked, folder: &Path) -> Result<Built, Error> {
     Ok(Built { train_track, bridge })
 }
 
+/// Track and bridge of a scenario, which runs in this process share.
+pub type Prepared = ttb_session::Prepared<ttb_train_track::Prepared, ttb_bridge::Prepared>;
+
+/// Track and bridge of a scenario, for runs in this process.
+pub fn prepared(checked: &Checked) -> Result<Prepared, Error> {
+    Prepared::new(checked).map_err(|e| Error::Input(e.to_string()))
+}
+
 /// Both subsystems in this process, in initialization mode.
 pub fn sides(checked: &Checked) -> Result<Sides<TrainTrack, Bridge>, Error> {
-    let refused = |e: ModelError| Error::Input(e.to_string());
-    let train_track = TrainTrack::new(checked.train_track.clone()).map_err(refused)?;
-    let bridge = Bridge::new(checked.bridge.clone()).map_err(refused)?;
-    Sides::new(train_track, bridge, &Case::of(checked)).map_err(refused)
+    prepared(checked)?.sides(checked).map_err(|e| Error::Input(e.to_string()))
 }
 
 /// Writes TrainTrack.fmu.
