@@ -11,6 +11,7 @@ use faer::linalg::matmul::matmul;
 use faer::{Accum, Mat, MatMut, Par};
 use pulp::{Arch, Simd, WithSimd};
 use serde::{Deserialize, Serialize};
+use ttb_sparse::vector::dot_in;
 
 /// A matrix; in single precision half as much is read from memory. Sums are in double precision either way.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -148,12 +149,7 @@ impl<T: Copy + Into<f64>, W: FnMut(usize, f64) -> [f64; N], const N: usize> With
 /// a · x over the first numbers of a.
 #[inline(always)]
 fn dot<T: Copy + Into<f64>>(a: &[T], x: &[f64]) -> f64 {
-    let ((chunks, rest), (x, x_rest)) = (a[..x.len()].as_chunks::<WIDE>(), x.as_chunks::<WIDE>());
-    let mut lanes = [0.0; WIDE];
-    for (a, x) in chunks.iter().zip(x) {
-        (0..WIDE).for_each(|k| lanes[k] += a[k].into() * x[k]);
-    }
-    lanes.iter().sum::<f64>() + rest.iter().zip(x_rest).map(|(a, x)| (*a).into() * x).sum::<f64>()
+    dot_in::<WIDE, T>(&a[..x.len()], x)
 }
 
 #[cfg(test)]

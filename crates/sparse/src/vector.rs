@@ -1,17 +1,19 @@
 //! Products of dense vectors, written so that the compiler vectorises them; the order of summation is fixed.
 
-const LANES: usize = 8;
+/// a · x in so many partial sums, which are added in their order: one order of summation on every processor.
+#[inline(always)]
+pub fn dot_in<const SUMS: usize, T: Copy + Into<f64>>(a: &[T], x: &[f64]) -> f64 {
+    let ((chunks, rest), (x, x_rest)) = (a.as_chunks::<SUMS>(), x.as_chunks::<SUMS>());
+    let mut sums = [0.0; SUMS];
+    for (a, x) in chunks.iter().zip(x) {
+        (0..SUMS).for_each(|k| sums[k] += a[k].into() * x[k]);
+    }
+    sums.iter().sum::<f64>() + rest.iter().zip(x_rest).map(|(a, x)| (*a).into() * x).sum::<f64>()
+}
 
 /// The inner product aᵀ b, in eight partial sums.
 pub fn dot(a: &[f64], b: &[f64]) -> f64 {
-    let (mut lanes, (a, b)) = ([0.0; LANES], (a.chunks_exact(LANES), b.chunks_exact(LANES)));
-    let rest: f64 = a.remainder().iter().zip(b.remainder()).map(|(a, b)| a * b).sum();
-    for (a, b) in a.zip(b) {
-        for (lane, (a, b)) in lanes.iter_mut().zip(a.iter().zip(b)) {
-            *lane += a * b;
-        }
-    }
-    lanes.iter().sum::<f64>() + rest
+    dot_in::<8, f64>(a, b)
 }
 
 /// y ← y + factor x.

@@ -32,6 +32,7 @@ pub(super) fn lower(c: &[&[f64]; 4], inverse: &[f64], x: &mut [f64], j: usize) -
 
 const WIDE: usize = 4;
 
+/// a · b in four partial sums, which are added in pairs, on every processor.
 #[inline(always)]
 pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {
     let (x, x_rest) = a.as_chunks::<WIDE>();
