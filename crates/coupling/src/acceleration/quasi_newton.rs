@@ -9,7 +9,7 @@
 //! ```
 //!
 //! What V knows is solved for, the rest is relaxed by Aitken's ω. V = Q R by Gram and Schmidt; a column that is within
-//! [`FILTER`] of the span of newer ones is forgotten: it is old news or noise.
+//! a tenth of the span of newer ones is forgotten: it tells nothing new, or it is noise.
 
 use std::collections::VecDeque;
 

@@ -1,6 +1,6 @@
 //! What trial steps tell before a step is taken.
 //!
-//! [`contraction`] and [`identify`] look at the coupling, [`rehearsal`] at each side alone, [`response`] says what is wrong
+//! `contraction` and `identify` look at the coupling, [`rehearsal`] at each side alone, [`response`] says what is wrong
 //! with a deck's signs and units.
 
 mod contraction;

@@ -1,7 +1,7 @@
 //! Trial steps before the first one, on each side alone: does a subsystem come back to a saved state, and does the deck answer forces as a
 //! deck does?
 //!
-//! A few runs of some steps ([`STEPS`], if there are as many) start from the same state: under the forces at hand, and
+//! A few runs of four steps (of fewer, if there are not as many) start from the same state: under the forces at hand, and
 //! under others that grow by v within the first step and then stay. The differences of the motion are what v does:
 //!
 //! ```text
