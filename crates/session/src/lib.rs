@@ -1,4 +1,4 @@
-//! A run is a value: a [`Case`] says what is coupled, how and how long; [`drive`] takes its steps; [`observe`] holds those who
+//! A run is a value: a [`Case`] says what is coupled, how and how long; [`drive()`] takes its steps; [`observe`] holds those who
 //! look on.
 //!
 //! ```text
@@ -7,7 +7,7 @@
 //!              └─ Coupled (two Subsystems and their Coupling), or any other method that takes steps
 //! ```
 //!
-//! [`drive`] holds the only loop over macro steps. Nothing here prints, opens a file, or knows a clock: the caller hands over
+//! [`drive()`] holds the only loop over macro steps. Nothing here prints, opens a file, or knows a clock: the caller hands over
 //! writers and a clock. A recorded variable is a [`Column`]: quantity, of what, unit; nowhere else are names taken apart.
 
 pub mod axis;
