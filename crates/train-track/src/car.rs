@@ -143,4 +143,22 @@ mod tests {
         assert!((car.stiffness * pitch).amax() < 1e-8);
         assert!((car.weight().sum() - 4.0 * car.axle_load).abs() < 1e-9);
     }
+
+    /// The diagonals of K and C, written down from the definition of the suspensions.
+    #[test]
+    fn every_motion_is_held_by_the_suspensions_it_moves() {
+        let data = ttb_scenario::bundled::cars("ice3-motor").unwrap()[0].clone();
+        let car = Car::new(&data);
+        let (lc, lt) = (0.5 * data.bogie_distance, 0.5 * data.wheelbase);
+        let of = |s: f64, p: f64| {
+            let bogie = [s + 2.0 * p, 2.0 * p * lt * lt];
+            [2.0 * s, 2.0 * s * lc * lc, bogie[0], bogie[1], bogie[0], bogie[1], p, p, p, p]
+        };
+        let springs = of(data.secondary_stiffness, data.primary_stiffness);
+        let dashpots = of(data.secondary_damping, data.primary_damping);
+        for i in 0..DOFS {
+            assert!((car.stiffness[(i, i)] / springs[i] - 1.0).abs() < 1e-12, "K_{i}");
+            assert!((car.damping[(i, i)] / dashpots[i] - 1.0).abs() < 1e-12, "C_{i}");
+        }
+    }
 }
