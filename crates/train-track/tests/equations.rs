@@ -195,37 +195,43 @@ fn the_pre_roll_begins_a_trains_length_earlier() {
     assert_ne!(start(25.0, 60.0), start(25.0, 40.0));
 }
 
-/// The same motion, told as a line, as its mean, as its end, or as a displacement that runs on with its velocity.
+/// Displacement and velocity, and their rates if they are told.
+type Told = ([f64; 2], Option<[f64; 2]>);
+
+/// Outputs after a deck motion d = ½ a t² that is told step by step, from (d, ḋ) at a step's begin and end.
+fn under(meaning: f64, told: fn([f64; 2], [f64; 2], f64) -> Told) -> [f64; 2] {
+    let mut instance = Instance::new(TrainTrack::new(wavy()).unwrap());
+    let parameter = instance.model().interface().find("input_meaning").unwrap() as u32;
+    instance.set(&[parameter], &[meaning]).unwrap();
+    instance.enter_initialization(0.0).unwrap();
+    instance.exit_initialization().unwrap();
+    let references: Vec<u32> = (0..2 * SUPPORTS as u32).collect();
+    let all = |[d, v]: [f64; 2]| (0..2 * SUPPORTS).map(|i| if i < SUPPORTS { d } else { v }).collect::<Vec<f64>>();
+    let h = 1e-3;
+    for n in 0..20 {
+        let at = |n: i32| [2.0 * (f64::from(n) * h).powi(2), 4.0 * f64::from(n) * h];
+        let (values, rates) = told(at(n), at(n + 1), h);
+        instance.set(&references, &all(values)).unwrap();
+        if let Some(rates) = rates {
+            instance.set_rates(&references, &all(rates)).unwrap();
+        }
+        instance.step(f64::from(n) * h, h).unwrap();
+    }
+    ["support[15].force", "car[1].acceleration"].map(|name| value(&mut instance, name))
+}
+
+/// A line with its rates is the same motion as its mean and as its end; a displacement that runs on with a velocity is a line
+/// with this rate, under a velocity that is held.
 #[test]
 fn each_meaning_of_a_held_input_tells_the_same_motion() {
-    let run = |meaning: f64, told: fn([f64; 2], [f64; 2], f64) -> [f64; 2]| {
-        let mut instance = Instance::new(TrainTrack::new(wavy()).unwrap());
-        let parameter = instance.model().interface().find("input_meaning").unwrap() as u32;
-        instance.set(&[parameter], &[meaning]).unwrap();
-        instance.enter_initialization(0.0).unwrap();
-        instance.exit_initialization().unwrap();
-        let references: Vec<u32> = (0..2 * SUPPORTS as u32).collect();
-        let h = 1e-3;
-        for n in 0..20 {
-            // d = ½ a t², with constant velocity within a step as far as a line tells it
-            let at = |n: i32| [0.5 * 4.0 * (f64::from(n) * h).powi(2), 4.0 * f64::from(n) * h];
-            let [d, v] = told(at(n), at(n + 1), h);
-            let values: Vec<f64> = (0..2 * SUPPORTS).map(|i| if i < SUPPORTS { d } else { v }).collect();
-            instance.set(&references, &values).unwrap();
-            if meaning == 0.0 {
-                unreachable!();
-            }
-            instance.step(f64::from(n) * h, h).unwrap();
-        }
-        ["support[15].force", "car[1].acceleration"].map(|name| value(&mut instance, name))
-    };
-    let end = run(3.0, |_, after, _| after);
-    let mean = run(2.0, |before, after, _| [0, 1].map(|i| 0.5 * (before[i] + after[i])));
-    // Runs on with the chord's velocity; the velocity itself is held at it.
-    let extrapolated = run(1.0, |before, after, h| [before[0], (after[0] - before[0]) / h]);
-    let near = |a: [f64; 2], b: [f64; 2], tolerance: f64| {
-        a.iter().zip(b).all(|(a, b)| (a - b).abs() <= tolerance * a.abs().max(1.0))
-    };
-    assert!(near(end, mean, 1e-9), "{end:?}, {mean:?}");
-    assert!(near(end, extrapolated, 0.02), "{end:?}, {extrapolated:?}");
+    let line = under(1.0, |a, b, h| (a, Some([0, 1].map(|i| (b[i] - a[i]) / h))));
+    let end = under(3.0, |_, b, _| (b, None));
+    let mean = under(2.0, |a, b, _| ([0, 1].map(|i| 0.5 * (a[i] + b[i])), None));
+    for held in [end, mean] {
+        let near = held.iter().zip(line).all(|(a, b)| (a - b).abs() <= 1e-9 * b.abs().max(1.0));
+        assert!(near, "{held:?}, as a line {line:?}");
+    }
+    let chord = under(1.0, |a, b, h| ([a[0], (b[0] - a[0]) / h], Some([(b[0] - a[0]) / h, 0.0])));
+    let extrapolated = under(1.0, |a, b, h| ([a[0], (b[0] - a[0]) / h], None));
+    assert_eq!(extrapolated, chord);
 }
