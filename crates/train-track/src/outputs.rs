@@ -29,6 +29,9 @@ struct Output<R> {
     read: R,
 }
 
+/// Reads an output of one body, counted from 0.
+type OfOne = fn(&View, usize) -> f64;
+
 /// What an output belongs to.
 #[derive(Clone, Copy)]
 enum Body {
@@ -44,7 +47,7 @@ enum Group {
     /// One output of all supports on the bridge; `feed_through`: it follows the deck's motion at the same instant.
     Supports { output: Output<for<'a> fn(&'a View<'a>) -> &'a [f64]>, feed_through: bool },
     /// All outputs of one body, then those of the next.
-    Each(Body, &'static [Output<fn(&View, usize) -> f64>]),
+    Each(Body, &'static [Output<OfOne>]),
 }
 
 /// Supports carry vertical forces.

@@ -120,8 +120,8 @@ pub(crate) fn static_compliance(system: &mut TrainTrackSystem) {
         let mut column = vec![0.0; prepared.track.order()];
         prepared.track.add_force(&points[j], 1.0, &mut column);
         prepared.statics.solve(&mut column);
-        for i in 0..n {
-            system.compliance[i * n + j] = prepared.track.deflection(&points[i], &column);
+        for (i, point) in points.iter().enumerate() {
+            system.compliance[i * n + j] = prepared.track.deflection(point, &column);
         }
         system.compliance[j * n + j] += points[j].local_compliance;
     }
