@@ -1,6 +1,8 @@
 //! Shared by the tests of the whole: a scenario run without FMUs, and the table it gives.
 
 use std::path::{Path, PathBuf};
+use std::process::Command;
+use std::sync::OnceLock;
 
 use ttb_bridge::Bridge;
 use ttb_contract::{Ports, Subsystem};
@@ -42,15 +44,34 @@ pub fn examples() -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../examples")
 }
 
-/// The program that `cargo build` left beside this test or benchmark.
+/// The program, built by cargo in the profile of this test or benchmark when it is first asked for; `$TTB` names another.
 ///
 /// # Panics
-/// It is not there.
+/// It cannot be built.
 pub fn ttb() -> PathBuf {
+    static PROGRAM: OnceLock<PathBuf> = OnceLock::new();
+    PROGRAM.get_or_init(|| std::env::var_os("TTB").map_or_else(built, PathBuf::from)).clone()
+}
+
+/// As `cargo build` does it, so that nothing is compiled twice: the default members, with their features.
+fn built() -> PathBuf {
     let test = std::env::current_exe().expect("path of the test");
-    let program = test.ancestors().nth(2).expect("target folder").join("ttb");
-    assert!(program.is_file(), "{} is missing: run tests/run, or cargo build in this profile first", program.display());
-    program
+    let folder = test.ancestors().nth(2).expect("folder of the profile");
+    let profile = folder.file_name().and_then(|name| name.to_str()).expect("name of the profile");
+    let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
+    let mut command = Command::new(cargo);
+    command.args(["build", "--quiet", "--profile", if profile == "debug" { "dev" } else { profile }]);
+    // What cargo tells a test it would tell the build, too: sources would seem to have changed.
+    let told = std::env::vars_os().map(|(name, _)| name);
+    let told = told.filter(|name| {
+        name.to_string_lossy().starts_with("CARGO_") && name != "CARGO_HOME" && name != "CARGO_TARGET_DIR"
+    });
+    for name in told {
+        command.env_remove(name);
+    }
+    let status = command.current_dir(env!("CARGO_MANIFEST_DIR").to_string() + "/..").status().expect("cargo");
+    assert!(status.success(), "cargo build failed");
+    folder.join("ttb")
 }
 
 /// An example scenario.

@@ -8,6 +8,8 @@ use ttb_scenario::Problems;
 use ttb_session::RunError;
 use ttb_session::error::Refusal;
 
+use crate::signals::Signal;
+
 /// Why a command failed.
 #[derive(Debug, thiserror::Error)]
 pub enum Error {
@@ -23,7 +25,7 @@ pub enum Error {
     /// An FMU failed.
     #[error("{0}")]
     Fmu(String),
-    /// A bridge FMU that says it rolls back, and does not: it is to be run as one that does not.
+    /// A bridge FMU that declares that it rolls back, and does not: it is to be run as one that does not.
     #[error("{0}")]
     NoReturn(String),
     /// A file.
@@ -45,9 +47,9 @@ pub enum Error {
         /// How many.
         count: usize,
     },
-    /// Ctrl-C.
-    #[error("interrupted; the results so far are kept")]
-    Interrupted,
+    /// Ctrl-C, or another signal.
+    #[error("interrupted by {}; the results so far are kept", .0.name())]
+    Interrupted(Signal),
 }
 
 impl Error {
@@ -59,7 +61,7 @@ impl Error {
             Self::NotConverged(_) => 3,
             Self::Fmu(_) | Self::NoReturn(_) => 4,
             Self::Io { .. } | Self::Pack(_) => 5,
-            Self::Interrupted => 130,
+            Self::Interrupted(signal) => signal.code(),
         }
     }
 
@@ -71,7 +73,15 @@ impl Error {
             Self::Fmu(_) | Self::NoReturn(_) => "fmu-failed",
             Self::Io { .. } | Self::Pack(_) => "io-failed",
             Self::Findings { .. } => "findings",
-            Self::Interrupted => "interrupted",
+            Self::Interrupted(_) => "interrupted",
+        }
+    }
+
+    /// The signal that ended the command.
+    pub fn signal(&self) -> Option<Signal> {
+        match self {
+            Self::Interrupted(signal) => Some(*signal),
+            _ => None,
         }
     }
 

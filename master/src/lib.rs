@@ -1,8 +1,9 @@
 //! The commands of `ttb` as a library, from the lowest room up:
 //!
 //! ```text
-//! error, files, clock      what ends a command, files that are whole or not there, processor time
-//! cli                     the command line
+//! error, signals           what ends a command, from inside and from outside
+//! files, clock             files that are whole or not there, processor time
+//! printed, cli            text on its way to a terminal; the command line
 //! connect                 from FMU files to two coupled subsystems
 //! results                 what a run leaves: rows, peaks, summary
 //! pictures                histories and errors drawn as SVG and PNG
@@ -17,7 +18,16 @@
 macro_rules! say {
     ($($text:tt)*) => {{
         use std::io::Write;
-        let _ = writeln!(std::io::stdout(), $($text)*);
+        let _ = writeln!(std::io::stdout(), "{}", $crate::printed::printable(&format!($($text)*)));
+    }};
+}
+
+/// Prints a line for the user on standard error; a terminal that has gone away is no error.
+#[macro_export]
+macro_rules! note {
+    ($($text:tt)*) => {{
+        use std::io::Write;
+        let _ = writeln!(std::io::stderr(), "{}", $crate::printed::printable(&format!($($text)*)));
     }};
 }
 
@@ -29,5 +39,7 @@ pub mod error;
 pub mod files;
 pub mod pictures;
 pub mod prepare;
+pub mod printed;
 pub mod results;
+pub mod signals;
 pub mod system;

@@ -9,6 +9,7 @@ use ttb::commands::{
     schema,
 };
 use ttb::error::Error;
+use ttb::signals::Stop;
 use ttb_fmi::leave;
 
 fn main() {
@@ -16,10 +17,13 @@ fn main() {
     if let Ok(program) = std::env::current_exe() {
         ttb_fmi::temporary::keeper(program, vec!["keeper".into()]);
     }
-    let code = match execute(Cli::parse().command) {
+    let command = Cli::parse().command;
+    // What works for another process of this program ends as that one says.
+    let stop = if command.serves() { Stop::default() } else { Stop::watch() };
+    let code = match execute(command, &stop) {
         Ok(()) => 0,
         Err(error) => {
-            eprintln!("ttb: {error}");
+            ttb::note!("ttb: {error}");
             error.code()
         }
     };
@@ -28,19 +32,19 @@ fn main() {
     leave(code)
 }
 
-fn execute(command: Command) -> Result<(), Error> {
+fn execute(command: Command, stop: &Stop) -> Result<(), Error> {
     match command {
-        Command::Run(arguments) => run::run(&arguments),
-        Command::Build(arguments) => build::build(&arguments),
+        Command::Run(arguments) => run::run(&arguments, stop),
+        Command::Build(arguments) => build::build(&arguments, stop),
         Command::CheckScenario { scenario } => check_scenario::check(&scenario),
         Command::Check(arguments) => check::check(&arguments),
-        Command::Compare(arguments) => compare::compare(&arguments),
-        Command::Accuracy(arguments) => accuracy::accuracy(&arguments),
+        Command::Compare(arguments) => compare::compare(&arguments, stop),
+        Command::Accuracy(arguments) => accuracy::accuracy(&arguments, stop),
         Command::Inspect(arguments) => inspect::inspect(&arguments),
         Command::InspectBridge { file } => inspect_bridge::inspect(&file),
         Command::ExportSsp(arguments) => export_ssp::export(&arguments),
         Command::Generate(arguments) => generate::generate(&arguments),
-        Command::Schema { bridge } => schema::schema(bridge),
+        Command::Schema { bridge, summary } => schema::schema(bridge, summary),
         Command::Host { preload } => host::host(&preload),
         Command::Keeper => keeper::keep(),
     }

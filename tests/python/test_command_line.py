@@ -1,7 +1,10 @@
-"""The program's commands and exit codes: 0 ok, 2 bad input, 3 not converged, 4 an FMU failed, 5 I/O, 130 interrupted."""
+"""The program's commands and exit codes: 0 ok, 2 bad input, 3 not converged, 4 an FMU failed, 5 I/O, 128 + n ended by
+signal n; and folders of results."""
 
 import csv
 import json
+import os
+import resource
 import signal
 import subprocess
 import time
@@ -93,7 +96,7 @@ def test_on_failure_accept_goes_on_and_counts(ttb, examples, tmp_path):
     found = summary(tmp_path)
     assert found["status"] == "ok" and found["iterations"]["mean"] == 1
     assert found["iterations"]["not_converged"] > 1000
-    [peak] = [peak["max"]["value"] for peak in found["peaks"] if peak["name"] == "point[mid].displacement"]
+    peak = found["peaks"]["point[mid].displacement"]["max"]["value"]
     assert peak == pytest.approx(0.65235e-3, rel=0.02)
 
 
@@ -132,18 +135,119 @@ def test_an_output_folder_that_cannot_be_is_an_io_error(ttb, examples, tmp_path)
     assert "results.csv" in ttb("run", examples / "r1.json", "-o", tmp_path / "out", expect=5).stderr
 
 
-def test_an_interrupted_run_keeps_its_results(ttb, tmp_path):
-    """Ctrl-C in the middle of the bundled scenario: exit 130, whole rows, a summary that says so."""
-    process = subprocess.Popen([ttb.path, "run", "-o", tmp_path], stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+@pytest.mark.parametrize("sent", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP], ids=lambda sent: sent.name)
+def test_a_run_that_a_signal_ends_keeps_its_results(ttb, tmp_path, sent):
+    """In the middle of the bundled scenario: exit 128 + n, whole rows, a summary that says so, nothing in TMPDIR."""
+    temporary = tmp_path / "temporary"
+    process = begin(ttb, tmp_path, temporary)
     results = tmp_path / "results.csv"
-    while not (results.is_file() and results.stat().st_size > 100_000) and process.poll() is None:
-        time.sleep(0.01)
-    process.send_signal(signal.SIGINT)
-    process.communicate(timeout=30)
-    assert process.returncode == 130
+    process.send_signal(sent)
+    said = process.communicate(timeout=30)[1].decode()
+    assert process.returncode == 128 + sent and sent.name in said
     found = summary(tmp_path)
-    assert found["status"] == "interrupted" and 0 < found["reached_s"] < 8.064
+    assert found["status"] == "interrupted" and found["signal"] == sent.name and 0 < found["reached_s"] < 8.064
+    assert emptied(temporary) and not (tmp_path / ".ttb-lock").exists()
     rows = list(csv.reader(results.open()))
     assert len(rows) == found["iterations"]["steps"] + 2
     assert {len(row) for row in rows} == {len(rows[0])}
     assert float(rows[-1][0]) == found["reached_s"]
+
+
+def begin(ttb, folder, temporary, *arguments):
+    """The bundled scenario, begun: some of its rows are there."""
+    temporary.mkdir()
+    command = [ttb.path, "run", "-o", folder, *arguments]
+    environment = {**os.environ, "TMPDIR": str(temporary)}
+    process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, env=environment)
+    results = folder / "results.csv"
+    while not (results.is_file() and results.stat().st_size > 100_000) and process.poll() is None:
+        time.sleep(0.01)
+    return process
+
+
+def emptied(folder):
+    """Whether a folder becomes empty within a second: somebody may still be clearing up."""
+    for _ in range(100):
+        if not list(folder.iterdir()):
+            return True
+        time.sleep(0.01)
+    return False
+
+
+def test_a_second_signal_ends_a_run_at_once_and_leaves_nothing_behind(ttb, tmp_path):
+    """Neither a lock nor a temporary folder; rows that are written are whole."""
+    process = begin(ttb, tmp_path / "out", tmp_path / "temporary")
+    os.kill(process.pid, signal.SIGSTOP)
+    process.send_signal(signal.SIGTERM)
+    process.send_signal(signal.SIGHUP)
+    os.kill(process.pid, signal.SIGCONT)
+    process.communicate(timeout=30)
+    assert process.returncode in (128 + signal.SIGTERM, 128 + signal.SIGHUP)
+    assert emptied(tmp_path / "temporary") and not (tmp_path / "out" / ".ttb-lock").exists()
+
+
+def test_a_command_without_results_ends_at_the_first_signal(ttb, tmp_path):
+    """Here while it builds; nothing is left, not even the folder it was to write into."""
+    temporary = tmp_path / "temporary"
+    temporary.mkdir()
+    environment = {**os.environ, "TMPDIR": str(temporary)}
+    process = subprocess.Popen([ttb.path, "build", "-o", tmp_path / "out"], env=environment)
+    while not (tmp_path / "out" / ".ttb-lock").exists() and process.poll() is None:
+        time.sleep(0.001)
+    process.send_signal(signal.SIGTERM)
+    assert process.wait(timeout=30) in (143, 0)
+    assert emptied(temporary) and not (tmp_path / "out" / ".ttb-lock").exists()
+
+
+def test_a_second_run_into_one_folder_is_refused_while_the_first_lasts(ttb, examples, tmp_path):
+    """Exit 2 with the number of the first one's process; the first one's files stay its own, and say that it is running."""
+    process = begin(ttb, tmp_path / "out", tmp_path / "temporary")
+    running = summary(tmp_path / "out")
+    assert running["status"] == "running" and running["process"] == process.pid
+    for command in ("run", "build", "compare", "accuracy"):
+        said = ttb(command, examples / "r1.json", "-o", tmp_path / "out", expect=2).stderr
+        assert f"process {process.pid} is writing" in said
+    process.send_signal(signal.SIGINT)
+    process.communicate(timeout=30)
+    rows = list(csv.reader((tmp_path / "out" / "results.csv").open()))
+    assert {len(row) for row in rows} == {len(rows[0])} and summary(tmp_path / "out")["title"] == running["title"]
+    ttb("run", examples / "r1.json", "-o", tmp_path / "out")
+
+
+def test_a_refused_run_leaves_the_results_of_the_one_before(ttb, examples, default, tmp_path):
+    """And one that begins leaves none of them."""
+    (tmp_path / "mine.txt").write_text("kept")
+    ttb("run", examples / "r1.json", "-o", tmp_path, "-q")
+    before = {path.name: path.read_bytes() for path in tmp_path.iterdir()}
+    ttb("run", examples / "r1.json", "--bridge", default.bridge.path, "-o", tmp_path, expect=2)
+    assert {path.name: path.read_bytes() for path in tmp_path.iterdir()} == before
+    # What the one before built may be what this one is given.
+    ttb("run", examples / "r1.json", "--bridge", tmp_path / "Bridge.fmu", "-o", tmp_path, "-q")
+    assert {path.name for path in tmp_path.iterdir()} == set(before)
+    stopped = changed(examples / "r1.json", tmp_path / "other.json", {"coupling.tolerance": 1e-17})
+    ttb("run", stopped, "-o", tmp_path, expect=3)
+    assert summary(tmp_path)["status"] == "not-converged"
+
+
+def test_a_disk_that_fills_leaves_whole_rows_and_a_summary_that_says_so(ttb, tmp_path):
+    """Exit 5; here a limit on the size of a file that results.csv meets."""
+
+    def limited():
+        resource.setrlimit(resource.RLIMIT_FSIZE, (20_000_000, 20_000_000))
+
+    done = subprocess.run(
+        [ttb.path, "run", "-o", tmp_path, "-q"], capture_output=True, text=True, preexec_fn=limited, restore_signals=False
+    )
+    assert done.returncode == 5 and "results.csv" in done.stderr
+    assert summary(tmp_path)["status"] == "io-failed"
+    text = (tmp_path / "results.csv").read_text()
+    rows = list(csv.reader(text.splitlines()))
+    assert text.endswith("\n") and len(rows) > 100 and {len(row) for row in rows} == {len(rows[0])}
+    assert not list(tmp_path.glob("*.part"))
+
+
+def test_what_a_file_or_an_fmu_says_does_not_command_the_terminal(ttb, examples, tmp_path):
+    """Escape sequences are written out."""
+    scenario = changed(examples / "r1.json", tmp_path / "s.json", {"title": "\x1b[31mred", "time.end": 0.002})
+    said = ttb("run", scenario, "-o", tmp_path / "out")
+    assert "\x1b" not in said.stdout + said.stderr and "\\u{1b}[31mred" in said.stdout

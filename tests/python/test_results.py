@@ -1,16 +1,20 @@
-"""What `ttb run` leaves in its folder: results.csv, iterations.csv, summary.json, results.svg and the FMUs."""
+"""What `ttb run` leaves in its folder: results.csv, iterations.csv, summary.json, pictures, the resolved scenario, the FMUs."""
 
 import csv
+import hashlib
 import json
+import struct
 from xml.etree import ElementTree
 
 import numpy as np
 import pandas
 import pytest
 from fmpy.util import read_csv
+from jsonschema import Draft202012Validator
 from scenario import changed
 
-FILES = ["Bridge.fmu", "TrainTrack.fmu", "iterations.csv", "results.csv", "results.svg", "summary.json"]
+FILES = ["Bridge.fmu", "TrainTrack.fmu", "iterations.csv", "results.csv", "results.png", "results.svg"]
+FILES += ["scenario.resolved.json", "summary.json"]
 
 
 @pytest.fixture(scope="module")
@@ -75,13 +79,13 @@ def test_iterations_have_one_row_a_step_and_add_up_to_the_summary(r1_run, summar
 
 def test_the_summarys_peaks_are_those_of_the_results(summary, results):
     """Value, time and, for wheels, place of both extremes of every column."""
-    assert [peak["name"] for peak in summary["peaks"]] == list(results.columns[1:])
-    for peak in summary["peaks"]:
-        series = results[peak["name"]]
+    assert list(summary["peaks"]) == list(results.columns[1:])
+    for name, peak in summary["peaks"].items():
+        series = results[name]
         for extreme, row in ((peak["min"], series.idxmin()), (peak["max"], series.idxmax())):
             assert (extreme["value"], extreme["time"]) == (series[row], results["time"][row])
-            if peak["name"].startswith("wheel["):
-                assert extreme["x"] == results[peak["name"].split(".")[0] + ".position"][row]
+            if name.startswith("wheel["):
+                assert extreme["x"] == results[name.split(".")[0] + ".position"][row]
 
 
 def test_the_summary_says_what_was_run_and_how_long_it_took(summary, ttb):
@@ -105,9 +109,102 @@ def test_the_hash_follows_the_physics_and_not_the_title(ttb, examples, tmp_path,
     assert run({}) == run({"title": "other"}) != run({"train.front_wheel": 31.0})
 
 
-def test_the_picture_is_xml(r1_run):
-    """results.svg opens in a browser."""
-    assert ElementTree.parse(r1_run / "results.svg").getroot().tag.endswith("svg")
+def test_the_hash_of_a_run_follows_all_that_decides_its_results(ttb, examples, r1, tmp_path):
+    """run_sha256: rows that are written, FMUs that are given, maps with their parameters; not paths, isolation or noise."""
+    ttb("build", examples / "r1.json", "-o", tmp_path)
+    stiffer = tmp_path / "map.json"
+    stiffer.write_text(json.dumps({"parameters": {"stiffness_factor": 1.1}}))
+    plain = tmp_path / "plain.json"
+    plain.write_text("{}")
+
+    def run(*options, **changes):
+        changes = {"time.end": 0.002, **{key.replace("_", "."): value for key, value in changes.items()}}
+        ttb("run", changed(examples / "r1.json", tmp_path / "s.json", changes), "-o", tmp_path / "out", *options)
+        return json.loads((tmp_path / "out" / "summary.json").read_text())["run_sha256"]
+
+    bridge = ("--bridge", r1.bridge.path)
+    hashes = [run(), run(output_every=2), run(*bridge), run(*bridge, "--map", stiffer), run(*bridge, "--map", plain)]
+    hashes.append(run("--no-probe"))
+    assert len(set(hashes)) == len(hashes)
+    assert run("--quiet", title="other") == hashes[0]
+    assert run("--bridge", tmp_path / "Bridge.fmu", "--isolate") == hashes[2]
+
+
+def test_the_summary_names_every_file_that_was_read(ttb, examples, tmp_path):
+    """Path as given and SHA-256; the command, and what it means."""
+    (tmp_path / "here").mkdir()
+    for name in ["strutted-frame.json", "strutted-frame.csv"]:
+        (tmp_path / "here" / name).write_bytes((examples / name).read_bytes())
+    scenario = changed(tmp_path / "here" / "strutted-frame.json", tmp_path / "here" / "s.json", {"time.end": 0.01})
+    ttb("run", "here/s.json", "-o", "out", "--no-probe", cwd=tmp_path)
+    summary = json.loads((tmp_path / "out" / "summary.json").read_text())
+    digest = {path.name: hashlib.sha256(path.read_bytes()).hexdigest() for path in scenario.parent.iterdir()}
+    profile = json.loads(scenario.read_text())["irregularity"]["file"]
+    wanted = [("scenario", "here/s.json", digest["s.json"]), ("profile", profile, digest[profile])]
+    assert [(file["role"], file["path"], file["sha256"]) for file in summary["inputs"]] == wanted
+    assert summary["command"][1:] == ["run", "here/s.json", "-o", "out", "--no-probe"]
+    assert summary["options"]["scenario"] == "here/s.json" and summary["options"]["probe"] is False
+
+
+@pytest.mark.parametrize("name", ["r1", "strutted-frame", "box-girder"])
+def test_the_resolved_scenario_gives_the_same_run_from_anywhere(ttb, examples, tmp_path, name):
+    """All defaults written out, files by whole paths."""
+    scenario = json.loads((examples / f"{name}.json").read_text())
+    scenario["time"]["end"] = 0.02
+    place = examples / f"{name}-of-a-test.json"
+    place.write_text(json.dumps(scenario))
+    try:
+        ttb("run", place, "-o", tmp_path / "a")
+    finally:
+        place.unlink()
+    resolved = json.loads((tmp_path / "a" / "scenario.resolved.json").read_text())
+    assert resolved["coupling"]["tolerance"] == 1e-6 and resolved["output"] == {"every": 1, "supports": False}
+    ttb("run", tmp_path / "a" / "scenario.resolved.json", "-o", tmp_path / "b")
+    summaries = [json.loads((tmp_path / run / "summary.json").read_text()) for run in "ab"]
+    assert summaries[0]["scenario_sha256"] == summaries[1]["scenario_sha256"]
+    assert (tmp_path / "a" / "results.csv").read_bytes() == (tmp_path / "b" / "results.csv").read_bytes()
+
+
+def test_summaries_fit_their_published_schema(ttb, examples, summary, tmp_path):
+    """ttb schema --summary: of a run that is done, one that failed, one that was chosen its steps."""
+    schema = json.loads(ttb("schema", "--summary").stdout)
+    Draft202012Validator.check_schema(schema)
+    validator = Draft202012Validator(schema)
+    found = [summary]
+    cases = [({"coupling.tolerance": 1e-17}, 3), ({"time.step": "auto", "time.end": 0.05}, 0)]
+    for changes, code in cases:
+        scenario = changed(examples / "r1.json", tmp_path / "s.json", changes)
+        ttb("run", scenario, "-o", tmp_path / "out", expect=code)
+        found.append(json.loads((tmp_path / "out" / "summary.json").read_text()))
+    for one in found:
+        assert [error.message for error in validator.iter_errors(one)] == []
+    assert list(validator.iter_errors({**summary, "status": "fine"})) != []
+    assert list(validator.iter_errors({**summary, "peaks": {"a": 1}})) != []
+
+
+def test_the_pictures_are_xml_and_png(r1_run):
+    """results.svg opens in a browser; no label is minus zero; twice as many pixels as units."""
+    svg = (r1_run / "results.svg").read_text()
+    root = ElementTree.fromstring(svg)
+    assert root.tag.endswith("svg")
+    texts = [(text.text or "").strip() for text in root.iter("{http://www.w3.org/2000/svg}text")]
+    assert "train on the bridge" in texts and "mid" in texts
+    assert not [text for text in texts if text.startswith("-0") and float(text) == 0]
+    head = (r1_run / "results.png").read_bytes()[:24]
+    assert head[:8] == b"\x89PNG\r\n\x1a\n"
+    assert struct.unpack(">II", head[16:]) == (2 * int(root.get("width")), 2 * int(root.get("height")))
+
+
+def test_points_that_do_not_move_down_with_the_deck_have_panels_of_their_own(ttb, examples, tmp_path):
+    """A point given by a node, here one that sways."""
+    (tmp_path / "bridges").symlink_to(examples / "bridges")
+    scenario = changed(examples / "box-girder.json", tmp_path / "s.json", {"time.end": 0.05})
+    ttb("run", scenario, "-o", tmp_path)
+    texts = [(text.text or "").strip() for text in ElementTree.parse(tmp_path / "results.svg").getroot().iter()]
+    titles = [text for text in texts if "displacement" in text]
+    assert titles == ["Deck displacement, mm (down)", "Other points, displacement, mm"]
+    first, others = (texts.index(title) for title in titles)
+    assert first < texts.index("mid") < others < texts.index("sway (right)")
 
 
 def test_a_run_from_another_folder_is_the_same_and_uses_the_folder_it_is_in(ttb, examples, r1_run, tmp_path):

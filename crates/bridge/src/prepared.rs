@@ -53,6 +53,11 @@ impl Prepared {
         Ok(Arc::new(Self { spec: spec.clone(), structure, steps, factorisations }))
     }
 
+    /// What the user should know of every bridge over this: see [`crate::Bridge::remarks`].
+    pub fn remarks(&self) -> &[String] {
+        &self.structure.remarks
+    }
+
     /// The specification it was made from.
     pub fn spec(&self) -> &BridgeSpec {
         &self.spec

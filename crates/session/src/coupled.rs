@@ -45,20 +45,28 @@ impl<'a> Coupled<'a> {
 }
 
 impl Stepping for Coupled<'_> {
-    /// Those of the train–track side, then those of the bridge; a name that both have is told apart by the instance.
+    /// Those of the train–track side, then those of the bridge. A name that is another column's already, also that of the
+    /// time, that is empty or that a spreadsheet would take for a formula gets the instance in front.
     fn columns(&mut self, wanted: &dyn Fn(&Column) -> bool) -> Vec<Column> {
         let column = |signal: &Signal| Column::parse(&signal.name, &signal.unit);
         let wanted = |signal: &Signal| wanted(&column(signal));
-        let mut signals = self.train_track.record(&wanted);
+        let signals = self.train_track.record(&wanted);
         self.of_train_track = signals.len();
         let own = self.bridge.record(&wanted);
-        let taken: HashSet<String> = signals.iter().map(|signal| signal.name.clone()).collect();
-        let mut columns: Vec<Column> = signals.drain(..).map(|signal| column(&signal)).collect();
-        columns.extend(own.iter().map(|signal| {
-            let instance = taken.contains(&signal.name).then(|| self.bridge.name().to_string());
-            let column = column(signal);
-            Column { instance: instance.or(column.instance), ..column }
-        }));
+        // The time's column comes first.
+        let mut taken = HashSet::from(["time".to_string()]);
+        let mut columns = Vec::new();
+        for (signals, instance) in [(signals, self.train_track.name()), (own, self.bridge.name())] {
+            for signal in &signals {
+                let odd = signal.name.trim().is_empty() || signal.name.starts_with(['=', '+', '-', '@']);
+                let mut column = column(signal);
+                while (odd && column.instance.is_none()) || !taken.insert(column.to_string()) {
+                    let before = column.instance.map_or_else(String::new, |before| format!(".{before}"));
+                    column.instance = Some(format!("{instance}{before}"));
+                }
+                columns.push(column);
+            }
+        }
         columns
     }
 

@@ -48,7 +48,8 @@ Exit codes:
     3  a step did not converge
     4  an FMU failed
     5  input or output failed
-  130  interrupted; results so far are kept";
+  130  interrupted by Ctrl-C; results so far are kept
+  143  ended by SIGTERM, 129: by SIGHUP; the same";
 
 /// The commands.
 #[derive(Debug, Subcommand)]
@@ -91,8 +92,11 @@ pub enum Command {
     )]
     Schema {
         /// That of bridge model files instead
-        #[arg(long)]
+        #[arg(long, conflicts_with = "summary")]
         bridge: bool,
+        /// That of summary.json, which a run leaves, instead
+        #[arg(long)]
+        summary: bool,
     },
     /// What `ttb run --isolate` starts to run an FMU in
     #[command(hide = true)]
@@ -104,4 +108,15 @@ pub enum Command {
     /// What removes the temporary folders of a program that has ended
     #[command(hide = true)]
     Keeper,
+}
+
+impl Command {
+    /// Whether it is a part of another command's work, in a process of its own.
+    pub fn serves(&self) -> bool {
+        match self {
+            Self::Host { .. } | Self::Keeper => true,
+            Self::Check(arguments) => arguments.worker.is_some(),
+            _ => false,
+        }
+    }
 }

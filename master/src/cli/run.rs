@@ -8,9 +8,12 @@ pub(super) const HELP: &str = "\
 The output folder gets
   results.csv      time, then every output by its FMI name, SI units (opens in FMPy, pandas, spreadsheets)
   iterations.csv   one row a step: iterations, residual, contraction, roll-backs, seconds
-  summary.json     peaks with place and time, contact forces, iterations, timing, versions
-  results.svg      deck, cars and wheels over time
+  summary.json     peaks with place and time, iterations, timing, versions, every file read with its hash
+  results.svg      deck, cars and wheels over time; the same as results.png
+  scenario.resolved.json   the scenario with all defaults and the steps that were taken; maps likewise
   *.fmu            the two FMUs that were run
+Another run into the same folder is refused while this one lasts. What an earlier one left is replaced when this one begins
+its first step; a run that is refused leaves it as it is.
 
 A bridge of somebody else's (docs/guide/bridges.md):
   ttb check THEIRS.fmu                         does it keep what FMI promises?

@@ -2,7 +2,6 @@
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
-use std::sync::atomic::AtomicBool;
 
 use ttb_contract::finite::{larger, largest};
 use ttb_scenario::Checked;
@@ -11,18 +10,21 @@ use ttb_session::observe::Progress;
 use ttb_session::{Case, Column, Ended, Plan, Table};
 
 use super::progress::progress_bar;
-use super::signals::stop_on_interrupt;
 use crate::cli::Accuracy;
 use crate::error::Error;
 use crate::files::write;
 use crate::pictures::slopes::{Kind, Slopes};
 use crate::prepare::auto::decided;
 use crate::prepare::fmus::{Prepared, prepared};
+use crate::results::folder::Folder;
+use crate::signals::Stop;
+
+/// What the command writes.
+const FILES: [&str; 4] = ["accuracy.md", "accuracy.csv", "accuracy.svg", "accuracy.png"];
 
 /// The command.
-pub fn accuracy(arguments: &Accuracy) -> Result<(), Error> {
-    let checked = decided(arguments.scenario.as_deref())?;
-    let folder = &arguments.output;
+pub fn accuracy(arguments: &Accuracy, stop: &Stop) -> Result<(), Error> {
+    let (checked, _) = decided(arguments.scenario.as_deref())?;
     let fine = arguments.reference;
     let mut steps = arguments.steps.clone();
     steps.sort_by(|a, b| b.total_cmp(a));
@@ -32,10 +34,10 @@ pub fn accuracy(arguments: &Accuracy) -> Result<(), Error> {
             return Err(Error::Input(format!("--steps: {h} s is no multiple of the fine run's {fine} s")));
         }
     }
-    std::fs::create_dir_all(folder).map_err(Error::io(folder))?;
-    let stop = stop_on_interrupt();
+    let folder = Folder::claim(&arguments.output, stop)?;
+    stop.gently();
     let mut prepared = prepared(&checked)?;
-    let mut run = |h: f64| histories(&checked, &mut prepared, h, arguments.quiet, &stop);
+    let mut run = |h: f64| histories(&checked, &mut prepared, h, arguments.quiet, stop);
     let truth = run(fine)?;
     let mut kinds: BTreeMap<String, Kind> = BTreeMap::new();
     for h in &steps {
@@ -48,33 +50,31 @@ pub fn accuracy(arguments: &Accuracy) -> Result<(), Error> {
     }
     let kinds: Vec<Kind> = kinds.into_values().collect();
     let text = markdown(&checked, &steps, fine, &kinds);
-    write(&folder.join("accuracy.md"), text.as_bytes())?;
-    write(&folder.join("accuracy.csv"), csv(&steps, &kinds).as_bytes())?;
-    Slopes { title: &checked.scenario.title, steps: &steps, kinds: &kinds }.save(&folder.join("accuracy"))?;
+    folder.begin(|name| FILES.contains(&name), arguments.scenario.as_deref().into_iter())?;
+    write(&folder.file("accuracy.md"), text.as_bytes())?;
+    write(&folder.file("accuracy.csv"), csv(&steps, &kinds).as_bytes())?;
+    Slopes { title: &checked.scenario.title, steps: &steps, kinds: &kinds }.save(&folder.file("accuracy"))?;
     say!("{text}");
-    say!("results in {}", folder.display());
+    say!("results in {}", folder.path().display());
     Ok(())
 }
 
 /// Runs the scenario at a step; all outputs but those of the supports and the wheels' positions.
-fn histories(
-    checked: &Checked,
-    prepared: &mut Prepared,
-    h: f64,
-    quiet: bool,
-    stop: &AtomicBool,
-) -> Result<Table, Error> {
+fn histories(checked: &Checked, prepared: &mut Prepared, h: f64, quiet: bool, stop: &Stop) -> Result<Table, Error> {
     let mut checked = checked.clone();
     checked.set_steps(Steps { step: h, substeps: checked.steps().substeps });
     let case = Case::of(&checked);
     let mut sides = prepared.sides(&checked).map_err(|e| Error::Input(e.to_string()))?;
     let bar = progress_bar(case.axis().steps(), quiet).with_prefix(format!("{:.4} ms ", 1e3 * h));
     let mut tell = |n| bar.set_position(n);
-    let (mut table, mut progress) = (Table::default(), Progress::new(&mut tell, stop));
+    let (mut table, mut progress) = (Table::default(), Progress::new(&mut tell, stop.flag()));
     let plan = Plan { axis: case.axis(), wanted: &Column::has_extremes, clock: &|| 0.0 };
     let ended = sides.run(&plan, &mut [&mut table, &mut progress])?;
     bar.finish_and_clear();
-    if ended == Ended::Stopped { Err(Error::Interrupted) } else { Ok(table) }
+    match stop.asked() {
+        Some(signal) if ended == Ended::Stopped => Err(Error::Interrupted(signal)),
+        _ => Ok(table),
+    }
 }
 
 /// Errors of every kind; the fine run has `parts` steps in one of the coarse run.

@@ -10,7 +10,7 @@ pub fn check(scenario: &Path) -> Result<(), Error> {
     let checked = fmus::scenario(Some(scenario))?;
     // What only shows when the bridge's matrices are factorised.
     let remarks = ttb_bridge::inspect::remarks(&checked.bridge).map_err(|e| Error::Input(e.to_string()))?;
-    remarks.iter().for_each(|remark| eprintln!("ttb: warning: {remark}"));
+    remarks.iter().for_each(|remark| note!("ttb: warning: {remark}"));
     let supports = checked.bridge.supports.len();
     let cars = checked.train_track.cars.len();
     say!("{}: no problems; {cars} cars, {supports} supports on the bridge", scenario.display());

@@ -10,6 +10,7 @@ use crate::cli::Inspect;
 use crate::connect::map::{INDEX, Map, Series};
 use crate::connect::series::{Found, series};
 use crate::error::Error;
+use crate::printed::one_line;
 
 /// Powers of kg, m, s of what is looked for.
 const FORCE: [i32; 3] = [1, 1, -2];
@@ -60,8 +61,8 @@ fn show(d: &ModelDescription, platforms: &str) {
         if names.is_empty() { "–".to_string() } else { names.join(", ") }
     };
     let number = |x: Option<f64>| x.map_or("?".into(), |x| format!("{x}"));
-    say!("model      {} (FMI {}, GUID {})", d.model_name, d.fmi_version, d.guid);
-    say!("tool       {tool}");
+    say!("model      {} (FMI {}, GUID {})", one_line(&d.model_name), d.fmi_version, one_line(&d.guid));
+    say!("tool       {}", one_line(tool));
     say!("platforms  {platforms}");
     say!("can        {}", list(true));
     say!("cannot     {}", list(false));

@@ -11,7 +11,7 @@ pub mod host;
 pub mod inspect;
 pub mod inspect_bridge;
 pub mod keeper;
+mod output;
 mod progress;
 pub mod run;
 pub mod schema;
-mod signals;

@@ -1,18 +1,16 @@
 //! `ttb run`: build, connect, initialise, step, record, sum up.
 
-use std::fs::File;
-use std::io::BufWriter;
 use std::path::Path;
-use std::sync::atomic::AtomicBool;
 use std::time::Instant;
 
 use ttb_contract::Subsystem;
 use ttb_coupling::probe::Probe;
+use ttb_fmi::temporary::Temporary;
 use ttb_session::observe::{Iterations, IterationsCsv, Peaks, Progress, ResultsCsv, Timed};
 use ttb_session::{Coupled, Ended, Plan, drive};
 
+use super::output::Output;
 use super::progress::progress_bar;
-use super::signals::stop_on_interrupt;
 use crate::cli::Run;
 use crate::connect::connected::{Connected, Given, connect};
 use crate::connect::isolate::Isolated;
@@ -23,22 +21,26 @@ use crate::error::Error;
 use crate::pictures::plot::Plot;
 use crate::prepare::{auto, fmus};
 use crate::results::coupled::CouplingReport;
+use crate::results::folder::Folder;
 use crate::results::job::Job;
-use crate::results::summary::{Seconds, Summary};
+use crate::results::provenance::{Provenance, resolved};
+use crate::results::rows::Rows;
+use crate::results::summary::{Seconds, Shown, Summary};
+use crate::signals::Stop;
 use crate::system::Opened;
 
 /// The command.
-pub fn run(arguments: &Run) -> Result<(), Error> {
+pub fn run(arguments: &Run, stop: &Stop) -> Result<(), Error> {
     let isolated = Isolated::new(arguments)?;
     preload::load(&arguments.preload)?;
     let done = match arguments.system() {
-        Some(path) => run_system(path, arguments, &isolated),
-        None => run_scenario(arguments, &isolated),
+        Some(path) => run_system(path, arguments, &isolated, stop),
+        None => run_scenario(arguments, &isolated, stop),
     };
     done.map_err(|error| isolated.advise(error, arguments))
 }
 
-fn run_scenario(arguments: &Run, isolated: &Isolated) -> Result<(), Error> {
+fn run_scenario(arguments: &Run, isolated: &Isolated, stop: &Stop) -> Result<(), Error> {
     let mut checked = fmus::scenario(arguments.scenario.as_deref())?;
     for given in arguments.train_track.iter().chain(&arguments.bridge) {
         std::fs::File::open(given).map_err(|e| Error::Input(format!("{}: {e}", given.display())))?;
@@ -53,30 +55,36 @@ fn run_scenario(arguments: &Run, isolated: &Isolated) -> Result<(), Error> {
     if arguments.train_track.is_some() && checked.scenario.time.step.given().is_none() {
         return Err(Error::Input("a step is chosen for our train and track: with --train-track give time.step".into()));
     }
+    let folder = Folder::claim(&arguments.output, stop)?;
     let map = |k: usize| if maps.len() > 1 { maps.get(k) } else { maps.first() };
     let given: Vec<Given> = arguments.bridge.iter().enumerate().map(|(k, path)| Given { path, map: map(k) }).collect();
-    let choice = auto::choose(&mut checked, &given, isolated)?;
-    let folder = &arguments.output;
-    std::fs::create_dir_all(folder).map_err(Error::io(folder))?;
-    let train_track = arguments.train_track.clone().map_or_else(|| fmus::train_track(&checked, folder), Ok)?;
+    let (choice, ready) = auto::choose(&mut checked, &given, isolated)?;
+    let provenance = Provenance::new(arguments, Some(&checked))?;
+    let place = Temporary::new("ttb-run-").map_err(Error::io(Path::new("temporary folder")))?;
+    let mut built = Vec::new();
+    let train_track = match &arguments.train_track {
+        Some(path) => path.clone(),
+        None => fmus::train_track(&checked, place.path()).inspect(|path| built.push(path.clone()))?,
+    };
     let mut bridges = arguments.bridge.clone();
     if bridges.is_empty() {
-        let (path, remarks) = fmus::bridge(&checked, folder)?;
-        warn(&remarks);
-        checked.warnings.extend(remarks);
-        bridges.push(path);
+        let ready = ready.map_or_else(|| fmus::prepared_bridge(&checked), Ok)?;
+        checked.warnings.extend(ready.remarks().iter().cloned());
+        bridges.push(fmus::bridge(&ready, &checked, place.path()).inspect(|path| built.push(path.clone()))?);
     }
     let bridges: Vec<Given> = bridges.iter().enumerate().map(|(k, path)| Given { path, map: map(k) }).collect();
-    let (stop, begin) = (stop_on_interrupt(), Instant::now());
-    let told = checked.warnings.len();
-    let job = Job::new(&checked, choice);
-    run_trusting(
+    let (begin, told) = (Instant::now(), checked.warnings.len());
+    let at = arguments.scenario.as_deref().and_then(Path::parent).unwrap_or(Path::new(""));
+    let job = Job::new(&checked, choice, provenance);
+    let output = Output::new(&job, folder, arguments, built).with(resolved(&checked, at), &maps);
+    let done = run_trusting(
         |trusted| connect(&train_track, &bridges, &checked, isolated, trusted),
         |connected| {
             warn(&connected.warnings[told..]);
-            run_connected(&job, connected, arguments, &stop, begin)
+            run_connected(&job, connected, &output, arguments, stop, begin)
         },
-    )
+    );
+    output.close(done)
 }
 
 /// Runs with bridges as they describe themselves; should it turn out that one does not roll back, once more with other
@@ -99,43 +107,48 @@ fn run_trusting(
 }
 
 fn warn(warnings: &[String]) {
-    warnings.iter().for_each(|warning| eprintln!("ttb: warning: {warning}"));
+    warnings.iter().for_each(|warning| note!("ttb: warning: {warning}"));
 }
 
-fn run_system(path: &Path, arguments: &Run, isolated: &Isolated) -> Result<(), Error> {
+fn run_system(path: &Path, arguments: &Run, isolated: &Isolated, stop: &Stop) -> Result<(), Error> {
     if arguments.train_track.is_some() || !arguments.bridge.is_empty() {
         return Err(Error::Input(
             "--train-track and --bridge belong to a scenario; an .ssp file names its FMUs itself".into(),
         ));
     }
-    let (stop, begin) = (stop_on_interrupt(), Instant::now());
-    let opened = Opened::open(path, isolated)?;
-    run_trusting(
+    let begin = Instant::now();
+    let mut opened = Opened::open(path, isolated)?;
+    opened.job.provenance = Provenance::new(arguments, None)?;
+    let output = Output::new(&opened.job, Folder::claim(&arguments.output, stop)?, arguments, Vec::new());
+    let done = run_trusting(
         |trusted| opened.connect(isolated, trusted),
         |connected| {
             warn(&connected.warnings);
-            std::fs::create_dir_all(&arguments.output).map_err(Error::io(&arguments.output))?;
-            run_connected(&opened.job, connected, arguments, &stop, begin)
+            run_connected(&opened.job, connected, &output, arguments, stop, begin)
         },
-    )
+    );
+    output.close(done)
 }
 
 /// From initialization to the summary.
 fn run_connected(
     job: &Job,
     connected: &mut Connected,
+    output: &Output,
     arguments: &Run,
-    stop: &AtomicBool,
+    stop: &Stop,
     begin: Instant,
 ) -> Result<(), Error> {
-    let (folder, axis) = (&arguments.output, job.case.axis());
-    let [results, iterations] = ["results.csv", "iterations.csv"].map(|name| folder.join(name));
-    let mut results = ResultsCsv::new(create(&results)?, &results.display().to_string(), job.case.every);
-    let mut iterations = IterationsCsv::new(create(&iterations)?, &iterations.display().to_string());
+    stop.gently();
+    output.begin()?;
+    let axis = job.case.axis();
+    let [results, iterations] = ["results.csv", "iterations.csv"].map(|name| output.folder().join(name));
+    let mut results = ResultsCsv::new(Rows::create(&results)?, &results.display().to_string(), job.case.every);
+    let mut iterations = IterationsCsv::new(Rows::create(&iterations)?, &iterations.display().to_string());
     let mut log = Log::new(job);
     let bar = progress_bar(axis.steps(), arguments.quiet);
     let mut tell = |n| bar.set_position(n);
-    let mut progress = Progress::new(&mut tell, stop);
+    let mut progress = Progress::new(&mut tell, stop.flag());
     let clock = || begin.elapsed().as_secs_f64();
     let plan = Plan { axis, wanted: &|column| job.case.keeps(column), clock: &clock };
     let Connected { train_track, bridge, coupling, parts, probe, .. } = &mut *connected;
@@ -166,17 +179,13 @@ fn run_connected(
     bar.finish_and_clear();
     let outcome = match ended {
         Ok(Ended::Complete) => Ok(()),
-        Ok(Ended::Stopped) => Err(Error::Interrupted),
+        Ok(Ended::Stopped) => stop.asked().map_or(Ok(()), |signal| Err(Error::Interrupted(signal))),
         Err(error) => Err(error.into()),
     };
     if matches!(outcome, Err(Error::NoReturn(_))) {
         return outcome;
     }
-    finish(job, &log, outcome, connected, folder, arguments.quiet)
-}
-
-fn create(path: &Path) -> Result<BufWriter<File>, Error> {
-    File::create(path).map(BufWriter::new).map_err(Error::io(path))
+    finish(job, log, outcome, connected, output, arguments.quiet)
 }
 
 /// What was seen of a run.
@@ -215,19 +224,25 @@ impl Log {
 /// Summary and picture, also of a run that failed; its error is passed on.
 fn finish(
     job: &Job,
-    log: &Log,
+    log: Log,
     outcome: Result<(), Error>,
     connected: &Connected,
-    folder: &Path,
+    output: &Output,
     quiet: bool,
 ) -> Result<(), Error> {
-    let coupling = CouplingReport::new(&connected.coupling, &connected.probe);
-    let (counted, warnings) = (&log.counted, &connected.warnings);
-    let summary = Summary::new(job, &outcome, log.reached, counted, coupling, log.seconds(), warnings, &log.peaks);
-    let written = summary.write(&folder.join("summary.json"));
+    let outcome = outcome.and(log.plot.draw(output.folder(), &job.case.title));
+    let shown = Shown {
+        reached: log.reached,
+        seconds: log.seconds(),
+        iterations: log.counted,
+        coupling: Some(CouplingReport::new(&connected.coupling, &connected.probe)),
+        warnings: connected.warnings.clone(),
+        peaks: Some(&log.peaks),
+    };
+    let summary = Summary::new(job, Some(&outcome), &shown);
+    let written = output.end(&summary);
     if !quiet {
-        summary.print(folder);
+        summary.print(output.folder());
     }
-    let drawn = log.plot.draw(folder, &job.case.title);
-    outcome.and(written).and(drawn)
+    outcome.and(written)
 }

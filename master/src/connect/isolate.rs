@@ -46,7 +46,7 @@ impl Isolated {
         let timeout = Duration::try_from_secs_f64(seconds).ok().filter(|timeout| !timeout.is_zero());
         let timeout = timeout.ok_or_else(|| Error::Input(format!("--timeout must be more than 0 s, not {seconds}")))?;
         let program = std::env::current_exe().map_err(Error::io(Path::new("the path of this program")))?;
-        let listener = Arc::new(|name: &str, line: &str| eprintln!("{name}: {line}"));
+        let listener = Arc::new(|name: &str, line: &str| note!("{name}: {line}"));
         let mut host = vec!["host".into()];
         host.extend(preload::passed_on(&arguments.preload));
         let isolation = Isolation { program, arguments: host, timeout, listener };

@@ -1,6 +1,7 @@
 //! From a scenario to two FMU files.
 
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use ttb_bridge::Bridge;
 use ttb_contract::Model;
@@ -12,6 +13,7 @@ use ttb_session::Sides;
 use ttb_train_track::TrainTrack;
 
 use crate::error::Error;
+use crate::files::whole;
 
 /// The FMUs that were written.
 pub struct Built {
@@ -51,18 +53,15 @@ pub fn scenario(path: Option<&Path>) -> Result<Checked, Error> {
     };
     let checked = checked.map_err(Error::Scenario)?;
     for warning in &checked.warnings {
-        eprintln!("ttb: warning: {warning}");
+        note!("ttb: warning: {warning}");
     }
     Ok(checked)
 }
 
-/// Writes TrainTrack.fmu and Bridge.fmu into `folder`.
-pub fn build(checked: &Checked, folder: &Path) -> Result<Built, Error> {
-    std::fs::create_dir_all(folder).map_err(Error::io(folder))?;
-    let train_track = train_track(checked, folder)?;
-    let (bridge, remarks) = bridge(checked, folder)?;
-    remarks.iter().for_each(|remark| eprintln!("ttb: warning: {remark}"));
-    Ok(Built { train_track, bridge })
+/// Writes TrainTrack.fmu and Bridge.fmu into `folder`; `ready` is the bridge, if it is prepared already.
+pub fn build(checked: &Checked, ready: Option<Arc<ttb_bridge::Prepared>>, folder: &Path) -> Result<Built, Error> {
+    let ready = ready.map_or_else(|| prepared_bridge(checked), Ok)?;
+    Ok(Built { train_track: train_track(checked, folder)?, bridge: bridge(&ready, checked, folder)? })
 }
 
 /// Track and bridge of a scenario, which runs in this process share.
@@ -85,11 +84,15 @@ pub fn train_track(checked: &Checked, folder: &Path) -> Result<PathBuf, Error> {
     write(&TRAIN_TRACK, &model, &[("train-track.json", text)], folder)
 }
 
-/// Writes Bridge.fmu; its path, and what its user should know of the bridge.
-pub fn bridge(checked: &Checked, folder: &Path) -> Result<(PathBuf, Vec<String>), Error> {
-    let model = Bridge::new(checked.bridge.clone()).map_err(|e| Error::Input(e.to_string()))?;
+/// Meshes, orders and reduces the bridge, whatever its step: of a large one that takes its time. Tells what was noticed.
+pub fn prepared_bridge(checked: &Checked) -> Result<Arc<ttb_bridge::Prepared>, Error> {
+    let prepared = ttb_bridge::Prepared::new(&checked.bridge).map_err(|e| Error::Input(e.to_string()))?;
+    let model = Bridge::from_prepared(&prepared).map_err(|e| Error::Input(e.to_string()))?;
+    for remark in model.remarks() {
+        note!("ttb: warning: {remark}");
+    }
     if let Some(a) = model.accuracy() {
-        eprintln!(
+        note!(
             "ttb: the bridge is reduced to {} modes up to {:.0} Hz and {} pseudo-modes; under a probe load displacements \
              differ by {:.1e} and accelerations by {:.1e} of their greatest from all {} degrees of freedom",
             a.modes,
@@ -100,8 +103,14 @@ pub fn bridge(checked: &Checked, folder: &Path) -> Result<(PathBuf, Vec<String>)
             model.ndof()
         );
     }
+    Ok(prepared)
+}
+
+/// Writes Bridge.fmu, for the step that the scenario has now.
+pub fn bridge(prepared: &Arc<ttb_bridge::Prepared>, checked: &Checked, folder: &Path) -> Result<PathBuf, Error> {
+    let model = Bridge::over(prepared, &checked.bridge).map_err(|e| Error::Input(e.to_string()))?;
     let files = model.resources(&checked.bridge).map_err(|e| Error::Pack(e.to_string()))?;
-    Ok((write(&BRIDGE, &model, &files, folder)?, model.remarks().to_vec()))
+    write(&BRIDGE, &model, &files, folder)
 }
 
 /// Writes the FMU of a model with its resources, name and content of each.
@@ -122,7 +131,7 @@ fn write<M: Model>(kind: &Kind, model: &M, files: &[(&str, Vec<u8>)], folder: &P
         resources: Some(resources.path()),
         licenses: &[("license.txt", include_str!("../../../LICENSE"))],
     };
-    pack(&contents, &path).map_err(|e| Error::Pack(e.to_string()))?;
+    whole(&path, |part| pack(&contents, part).map_err(std::io::Error::other))?;
     Ok(path)
 }
 

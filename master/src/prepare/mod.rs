@@ -2,4 +2,5 @@
 
 pub mod auto;
 pub mod fmus;
+mod levels;
 mod stretch;

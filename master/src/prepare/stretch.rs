@@ -79,7 +79,16 @@ pub fn run(short: &Checked, steps: Steps, stage: &Stage) -> Result<Option<Vec<Se
     let Connected { train_track, bridge, coupling, .. } = &mut connected;
     let mut coupled = Coupled::new(train_track, bridge, coupling);
     match drive(&mut coupled, &plan, &mut [&mut table]) {
-        Ok(_) => Ok(Some(seen(table, coupled.of_train_track()))),
+        Ok(_) => {
+            let finite = |history: &Vec<f64>| history.iter().all(|x| x.is_finite());
+            if let Some(at) = table.values.iter().position(|history| !finite(history)) {
+                return Err(Error::Fmu(format!(
+                    "step auto: {} is no finite number on a stretch of the run",
+                    table.columns[at]
+                )));
+            }
+            Ok(Some(seen(table, coupled.of_train_track())))
+        }
         Err(RunError::Iteration(IterationError::NotConverged { .. } | IterationError::Unstable { .. })) => Ok(None),
         Err(error) => Err(error.into()),
     }

@@ -1,12 +1,13 @@
 //! What the summary says of the coupling: its strength, the method that dealt with it, the error where it was not iterated.
 
+use schemars::JsonSchema;
 use serde::Serialize;
 use ttb_coupling::probe::Probe;
 use ttb_coupling::report::Source;
 use ttb_coupling::{Coupling, Method};
 
 /// How strongly the two are coupled, and by what method that was dealt with.
-#[derive(Clone, Debug, Default, Serialize)]
+#[derive(Clone, Debug, Default, Serialize, JsonSchema)]
 pub struct CouplingReport {
     /// The method in force at the end: what `auto` has picked.
     pub method: &'static str,
@@ -32,7 +33,7 @@ pub struct CouplingReport {
 }
 
 /// Work that was made or lost at the interface, all steps together.
-#[derive(Clone, Copy, Debug, Serialize)]
+#[derive(Clone, Copy, Debug, Serialize, JsonSchema)]
 pub struct WorkReport {
     /// J: what the bridge received.
     pub received: f64,
@@ -43,7 +44,7 @@ pub struct WorkReport {
 }
 
 /// What trial steps before the run showed; empty where none could be made.
-#[derive(Clone, Debug, Default, Serialize)]
+#[derive(Clone, Debug, Default, Serialize, JsonSchema)]
 pub struct ProbeReport {
     /// By how much a step of every bridge repeated from a saved state differs, relative to what other forces change.
     #[serde(skip_serializing_if = "Vec::is_empty")]
@@ -64,7 +65,7 @@ impl From<&Probe> for ProbeReport {
 }
 
 /// A change of method.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct Switch {
     /// From when on, s.
     pub time: f64,

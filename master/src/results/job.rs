@@ -5,6 +5,7 @@ use ttb_scenario::spec::Profile;
 use ttb_session::Case;
 
 use super::choice::Choice;
+use super::provenance::Provenance;
 use super::scene::Scene;
 
 /// A run to be done.
@@ -19,6 +20,8 @@ pub struct Job {
     pub choice: Option<Choice>,
     /// What a picture needs to know.
     pub scene: Scene,
+    /// Command and files.
+    pub provenance: Provenance,
 }
 
 /// Fingerprint (SHA-256) of a run's origin.
@@ -29,9 +32,18 @@ pub enum Origin {
     System(String),
 }
 
+impl Origin {
+    /// The fingerprint.
+    pub fn hash(&self) -> &str {
+        match self {
+            Self::Scenario(hash) | Self::System(hash) => hash,
+        }
+    }
+}
+
 impl Job {
     /// Of a scenario whose steps are known.
-    pub fn new(checked: &Checked, choice: Option<Choice>) -> Self {
+    pub fn new(checked: &Checked, choice: Option<Choice>, provenance: Provenance) -> Self {
         Self {
             case: Case::of(checked),
             origin: Origin::Scenario(checked.hash.clone()),
@@ -41,6 +53,7 @@ impl Job {
             },
             choice,
             scene: Scene::new(checked),
+            provenance,
         }
     }
 }

@@ -1,9 +1,13 @@
-//! What a run leaves behind: rows as they come, extremes, the summary.
+//! What a run leaves behind: rows, extremes, the summary, and where all of it comes from.
 
 pub mod choice;
 pub mod coupled;
+pub mod folder;
 pub mod job;
 pub mod peaks;
+mod print;
+pub mod provenance;
 pub mod ran;
+pub mod rows;
 pub mod scene;
 pub mod summary;

@@ -2,6 +2,7 @@
 
 use std::collections::HashMap;
 
+use schemars::JsonSchema;
 use serde::Serialize;
 use ttb_contract::finite::larger;
 use ttb_session::observe::{Extreme, Peaks};
@@ -9,9 +10,10 @@ use ttb_session::observe::{Extreme, Peaks};
 use super::choice::Choice;
 
 /// Both extremes of a variable.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Peak {
-    /// FMI name.
+    /// FMI name; in summary.json it is the key.
+    #[serde(skip)]
     pub name: String,
     /// Unit.
     pub unit: String,
@@ -19,7 +21,8 @@ pub struct Peak {
     pub min: Extreme,
     /// Greatest value.
     pub max: Extreme,
-    /// How far both may be off for the steps' sake, in the variable's unit; an estimate, known where the steps were chosen.
+    /// How far both may be off for the steps' sake, in the variable's unit; an estimate and no
+    /// bound, known where the steps were chosen.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub estimated_error: Option<f64>,
     /// When the variable was NaN or infinite for the first time, s; the extremes are then those of its finite values.

@@ -1,20 +1,23 @@
-//! summary.json, and the few lines for people.
+//! summary.json: how a run went, and what it was. Its JSON Schema comes from the types below.
 
+use std::collections::BTreeMap;
 use std::path::Path;
 
-use serde::Serialize;
-use ttb_session::Quantity;
-use ttb_session::column::{Column, Kind};
+use schemars::{JsonSchema, Schema, SchemaGenerator};
+use serde::{Serialize, Serializer};
 use ttb_session::observe::{ContactLoss, Iterations, Peaks};
 
 use super::choice::Choice;
 use super::coupled::CouplingReport;
 use super::job::{Job, Origin};
 use super::peaks::{Peak, told};
+use super::provenance::{Input, Options};
 use crate::error::Error;
+use crate::files;
+use crate::signals::Signal;
 
 /// Wall seconds.
-#[derive(Clone, Copy, Debug, Default, Serialize)]
+#[derive(Clone, Copy, Debug, Default, Serialize, JsonSchema)]
 pub struct Seconds {
     /// Loading and initializing both FMUs, static equilibrium included.
     pub initialization: f64,
@@ -31,64 +34,153 @@ pub struct Seconds {
 }
 
 /// The whole file.
-#[derive(Debug, Serialize)]
+#[derive(Debug, Serialize, JsonSchema)]
+#[schemars(deny_unknown_fields)]
 pub struct Summary<'a> {
-    /// `ok`, or the kind of failure.
+    /// `running` until the end; then `ok`, or how the run failed.
+    #[schemars(extend("enum" = STATUSES))]
     pub status: &'a str,
     /// Its message.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub error: Option<String>,
-    title: &'a str,
+    /// The signal that ended the run.
     #[serde(skip_serializing_if = "Option::is_none")]
-    scenario_sha256: Option<&'a str>,
+    pub signal: Option<&'static str>,
+    /// While it runs, the number of its process.
     #[serde(skip_serializing_if = "Option::is_none")]
-    system_sha256: Option<&'a str>,
+    pub process: Option<u32>,
+    /// The scenario's or system structure's.
+    pub title: &'a str,
+    /// Hash of all that decides the results: equal for equal runs, and only for them.
+    pub run_sha256: String,
+    /// Hash of what the scenario means: resolved data of both subsystems and coupling settings.
     #[serde(skip_serializing_if = "Option::is_none")]
-    irregularity_seed: Option<u64>,
-    versions: Versions,
-    step_s: f64,
-    substeps: usize,
+    pub scenario_sha256: Option<&'a str>,
+    /// Hash of the system structure's file, if that was run.
     #[serde(skip_serializing_if = "Option::is_none")]
-    step_choice: Option<&'a Choice>,
-    end_s: f64,
-    reached_s: f64,
-    iterations: &'a Iterations,
-    coupling: CouplingReport,
-    seconds: Seconds,
-    times_faster_than_real_time: f64,
-    warnings: &'a [String],
-    contact_losses: Vec<ContactLoss>,
-    peaks: Vec<Peak>,
+    pub system_sha256: Option<&'a str>,
+    /// The command line as it was given.
+    pub command: &'a [String],
+    /// What it means.
+    pub options: &'a Options,
+    /// All files that were read.
+    pub inputs: &'a [Input],
+    /// Seed of a random irregularity.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub irregularity_seed: Option<u64>,
+    /// Of the program and of FMI.
+    pub versions: Versions,
+    /// Macro step, s.
+    pub step_s: f64,
+    /// Internal steps of train and track in each.
+    pub substeps: usize,
+    /// Why the steps are these, if they were left to the program.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub step_choice: Option<&'a Choice>,
+    /// Planned end, s.
+    pub end_s: f64,
+    /// End that was reached, s.
+    pub reached_s: f64,
+    /// Trials of all steps.
+    pub iterations: &'a Iterations,
+    /// How strongly the sides are coupled, and how that was dealt with; absent while the run goes on.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub coupling: Option<CouplingReport>,
+    /// Wall time, s.
+    pub seconds: Seconds,
+    /// Simulated seconds in a second of stepping.
+    pub times_faster_than_real_time: f64,
+    /// What was noticed.
+    pub warnings: Vec<String>,
+    /// Wheels that lost contact.
+    pub contact_losses: Vec<ContactLoss>,
+    /// Extremes of every recorded variable by its column's name, in the order of the columns.
+    pub peaks: Named,
 }
 
-#[derive(Debug, Serialize)]
-struct Versions {
+/// Every status there is.
+const STATUSES: [&str; 8] =
+    ["running", "ok", "bad-input", "not-converged", "fmu-failed", "io-failed", "findings", "interrupted"];
+
+/// Of the program, of FMI.
+#[derive(Debug, Serialize, JsonSchema)]
+pub struct Versions {
     ttb: &'static str,
     fmi: &'static str,
 }
 
+/// Peaks by name; those that had no value are left out.
+#[derive(Debug)]
+pub struct Named(pub Vec<Peak>);
+
+impl Serialize for Named {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_map(self.0.iter().filter(|peak| peak.min.value.is_finite()).map(|peak| (&peak.name, peak)))
+    }
+}
+
+impl JsonSchema for Named {
+    fn schema_name() -> std::borrow::Cow<'static, str> {
+        "Peaks".into()
+    }
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        BTreeMap::<String, Peak>::json_schema(generator)
+    }
+}
+
+/// What a run has shown so far.
+#[derive(Default)]
+pub struct Shown<'a> {
+    /// s.
+    pub reached: f64,
+    /// Trials.
+    pub iterations: Iterations,
+    /// Absent before the end.
+    pub coupling: Option<CouplingReport>,
+    /// Wall time.
+    pub seconds: Seconds,
+    /// What was noticed.
+    pub warnings: Vec<String>,
+    /// Extremes; absent before the end.
+    pub peaks: Option<&'a Peaks>,
+}
+
+/// JSON Schema of summary.json.
+pub fn schema() -> Schema {
+    schemars::schema_for!(Summary)
+}
+
 impl<'a> Summary<'a> {
-    /// Of a run that reached `reached` seconds.
-    pub fn new(
-        job: &'a Job,
-        outcome: &'a Result<(), Error>,
-        reached: f64,
-        iterations: &'a Iterations,
-        coupling: CouplingReport,
-        seconds: Seconds,
-        warnings: &'a [String],
-        peaks: &'a Peaks,
-    ) -> Self {
+    /// Of a run that has ended; no `outcome`: that has begun.
+    pub fn new(job: &'a Job, outcome: Option<&Result<(), Error>>, shown: &'a Shown<'a>) -> Self {
         let (scenario_sha256, system_sha256) = match &job.origin {
             Origin::Scenario(hash) => (Some(hash.as_str()), None),
             Origin::System(hash) => (None, Some(hash.as_str())),
         };
+        let error = outcome.and_then(|outcome| outcome.as_ref().err());
+        let peaks = shown.peaks.map(|peaks| told(peaks, job.choice.as_ref())).unwrap_or_default();
+        let mut warnings = shown.warnings.clone();
+        warnings.extend(job.choice.iter().flat_map(|choice| choice.warnings.clone()));
+        warnings.extend(peaks.iter().find_map(|Peak { name, not_finite_from, .. }| {
+            let time = (*not_finite_from)?;
+            Some(format!("{name} is no finite number at t = {time} s: such values are not counted in its peaks"))
+        }));
+        let (stepping, reached) = (shown.seconds.stepping, shown.reached);
         Self {
-            status: outcome.as_ref().map_or_else(Error::status, |()| "ok"),
-            error: outcome.as_ref().err().map(ToString::to_string),
+            status: match outcome {
+                None => "running",
+                Some(outcome) => outcome.as_ref().map_or_else(Error::status, |()| "ok"),
+            },
+            error: error.map(ToString::to_string),
+            signal: error.and_then(Error::signal).map(Signal::name),
+            process: outcome.is_none().then(std::process::id),
             title: &job.case.title,
+            run_sha256: job.provenance.hash(job),
             scenario_sha256,
             system_sha256,
+            command: &job.provenance.command,
+            options: &job.provenance.options,
+            inputs: &job.provenance.inputs,
             irregularity_seed: job.irregularity_seed,
             versions: Versions { ttb: env!("CARGO_PKG_VERSION"), fmi: "2.0" },
             step_s: job.case.step,
@@ -96,96 +188,27 @@ impl<'a> Summary<'a> {
             step_choice: job.choice.as_ref(),
             end_s: job.case.end,
             reached_s: reached,
-            iterations,
-            coupling,
-            seconds,
-            times_faster_than_real_time: if seconds.stepping > 0.0 { reached / seconds.stepping } else { 0.0 },
+            iterations: &shown.iterations,
+            coupling: shown.coupling.clone(),
+            seconds: shown.seconds,
+            times_faster_than_real_time: if stepping > 0.0 { reached / stepping } else { 0.0 },
             warnings,
-            contact_losses: peaks.contact_losses(),
-            peaks: told(peaks, job.choice.as_ref()),
+            contact_losses: shown.peaks.map(Peaks::contact_losses).unwrap_or_default(),
+            peaks: Named(peaks),
         }
     }
 
-    /// Writes summary.json.
+    /// Writes summary.json. On a disk that is full the one of before, which says `running`, says `io-failed` instead.
     pub fn write(&self, path: &Path) -> Result<(), Error> {
-        let text =
-            serde_json::to_string_pretty(self).map_err(|e| Error::Io { path: path.to_path_buf(), source: e.into() })?;
-        std::fs::write(path, text + "\n").map_err(Error::io(path))
-    }
-
-    /// A short summary for people.
-    pub fn print(&self, folder: &Path) {
-        say!("{}", self.title);
-        let (i, s) = (self.iterations, self.seconds);
-        let parts = match self.substeps {
-            1 => String::new(),
-            m => format!(" (train and track {m} a step)"),
-        };
-        say!("  {} steps of {} s{parts} to t = {} s: {}", i.steps, self.step_s, self.reached_s, self.status);
-        say!("  iterations      mean {:.2}, max {}, residual ≤ {:.1e}", i.mean, i.max, i.max_residual);
-        self.coupling.print();
-        say!(
-            "  seconds         {:.2} stepping ({:.1} × real time): train–track {:.2}, bridge {:.2}, master {:.3}, results {:.2}; start {:.2}",
-            s.stepping,
-            self.times_faster_than_real_time,
-            s.train_track,
-            s.bridge,
-            s.master,
-            s.recording,
-            s.initialization
-        );
-        if i.not_converged > 0 {
-            say!("  NOT CONVERGED   {} of {} steps were accepted all the same", i.not_converged, i.steps);
+        let mut text = files::json(path, self)?;
+        if self.process.is_some() {
+            // Room for a longer status.
+            text += &" ".repeat(40);
         }
-        let columns: Vec<Column> = self.peaks.iter().map(|peak| Column::parse(&peak.name, &peak.unit)).collect();
-        let at_points = self.peaks.iter().zip(&columns).filter(|(_, column)| column.of.kind() == Kind::Point);
-        for (peak, _) in at_points {
-            let (factor, unit) = readable(&peak.unit);
-            let (low, high) = (&peak.min, &peak.max);
-            say!(
-                "  {:<34} {:>10.4} … {:<10.4} {unit}, at t = {:.3} s and {:.3} s",
-                peak.name,
-                low.value * factor,
-                high.value * factor,
-                low.time,
-                high.time
-            );
+        let written = files::write(path, (text + "\n").as_bytes());
+        if written.is_err() {
+            files::overwrite(path, "\"status\": \"running\"", "\"status\": \"io-failed\"");
         }
-        self.print_over(&columns, Kind::Car, &Quantity::Acceleration, "car bodies, acceleration");
-        self.print_over(&columns, Kind::Wheel, &Quantity::ContactForce, "wheelsets, contact force");
-        for loss in &self.contact_losses {
-            say!(
-                "  wheel {} lost contact {} times, {:.4} s in all, {:.4} s at most",
-                loss.wheel,
-                loss.intervals,
-                loss.seconds,
-                loss.longest
-            );
-        }
-        say!("  results in {}", folder.display());
-    }
-
-    /// Extremes over all variables of a kind.
-    fn print_over(&self, columns: &[Column], kind: Kind, quantity: &Quantity, text: &str) {
-        let own = self.peaks.iter().zip(columns).filter(|(_, column)| column.is(kind, quantity));
-        let of_kind = || own.clone().map(|(peak, _)| peak);
-        let low = of_kind().min_by(|a, b| a.min.value.total_cmp(&b.min.value));
-        let high = of_kind().max_by(|a, b| a.max.value.total_cmp(&b.max.value));
-        if let (Some(low), Some(high)) = (low, high) {
-            let (factor, unit) = readable(&low.unit);
-            let (a, b) = (low.min.value * factor, high.max.value * factor);
-            say!("  {text:<34} {a:>10.4} … {b:<10.4} {unit}, at {} and {}", low.name, high.name);
-        }
-    }
-}
-
-/// Factor and name of the unit people read.
-fn readable(unit: &str) -> (f64, &str) {
-    match unit {
-        "m" => (1e3, "mm"),
-        "N" => (1e-3, "kN"),
-        "N.m" => (1e-3, "kN.m"),
-        "m/s2" => (1.0, "m/s²"),
-        other => (1.0, other),
+        written
     }
 }

@@ -27,13 +27,13 @@ const COMPONENTS: [(&str, [f64; 4]); 2] =
 
 /// The command; returns the archive's path.
 pub fn export(arguments: &ExportSsp) -> Result<PathBuf, Error> {
-    let checked = decided(arguments.scenario.as_deref())?;
+    let (checked, prepared) = decided(arguments.scenario.as_deref())?;
     let text = match &arguments.scenario {
         Some(path) => std::fs::read_to_string(path).map_err(Error::io(path))?,
         None => ttb_scenario::default_scenario_text().to_string(),
     };
     let folder = Temporary::new("ttb-export-").map_err(Error::io(Path::new("temporary folder")))?;
-    let built = fmus::build(&checked, folder.path())?;
+    let built = fmus::build(&checked, prepared, folder.path())?;
     let descriptions = [describe(&built.train_track)?, describe(&built.bridge)?];
     let structure = structure(&checked, &descriptions);
     let path = arguments.output.clone().unwrap_or_else(|| {

@@ -1,10 +1,8 @@
 //! `ttb run SYSTEM.ssp`: from an archive to two FMUs and how they are connected, or to everything that is wrong with it.
 
 use std::collections::BTreeMap;
-use std::io::Read;
 use std::path::{Path, PathBuf};
 
-use sha2::{Digest, Sha256};
 use ttb_fmi::Fmu;
 use ttb_fmi::archive::{UnpackError, unpack};
 use ttb_fmi::isolate::Isolation;
@@ -19,7 +17,9 @@ use crate::connect::assign::{Assigned, Ends};
 use crate::connect::connected::{Bridge, Connected, couple, instantiate};
 use crate::connect::isolate::{self, Isolated};
 use crate::error::Error;
+use crate::files::sha256;
 use crate::results::job::{Job, Origin};
+use crate::results::provenance::Provenance;
 use crate::results::scene::Scene;
 
 /// A system structure that can be run.
@@ -85,10 +85,11 @@ impl Opened {
         };
         let job = Job {
             case,
-            origin: Origin::System(fingerprint(path)?),
+            origin: Origin::System(sha256(path)?),
             irregularity_seed: None,
             choice: None,
             scene: Scene::default(),
+            provenance: Provenance::default(),
         };
         if isolation.is_some() && isolated.train_track.is_none() {
             fmus[train_track] = ttb_fmi2::import::open(&folder.path().join(&components[train_track].source))?;
@@ -182,17 +183,4 @@ fn ends(links: &[Link], from: usize, fmus: &[Fmu; 2], from_bridge: bool) -> [End
         into.push(link.input.clone(), to_input);
     }
     [out, into]
-}
-
-/// SHA-256 of a file.
-fn fingerprint(path: &Path) -> Result<String, Error> {
-    let mut file = std::fs::File::open(path).map_err(Error::io(path))?;
-    let (mut digest, mut buffer) = (Sha256::new(), vec![0; 1 << 16]);
-    loop {
-        let read = file.read(&mut buffer).map_err(Error::io(path))?;
-        if read == 0 {
-            return Ok(digest.finalize().iter().map(|byte| format!("{byte:02x}")).collect());
-        }
-        digest.update(&buffer[..read]);
-    }
 }

@@ -2,6 +2,7 @@
 
 use std::ops::ControlFlow;
 
+use schemars::JsonSchema;
 use serde::Serialize;
 use ttb_contract::finite::larger;
 use ttb_coupling::{Outcome, StepInfo};
@@ -10,7 +11,7 @@ use crate::error::RunError;
 use crate::observe::{GO_ON, Moment, Observer};
 
 /// Iterations over a run.
-#[derive(Clone, Debug, Default, Serialize)]
+#[derive(Clone, Debug, Default, Serialize, JsonSchema)]
 pub struct Iterations {
     /// Steps taken.
     pub steps: u64,

@@ -3,6 +3,7 @@
 use std::collections::HashMap;
 use std::ops::ControlFlow;
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::column::{Column, Kind, Of};
@@ -11,7 +12,7 @@ use crate::observe::{Begin, GO_ON, Moment, Observer};
 use crate::quantity::Quantity;
 
 /// A value and when, and for wheels where, it occurred.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Extreme {
     /// Value in the column's unit.
     pub value: f64,
@@ -43,7 +44,7 @@ impl Peak {
 }
 
 /// Contact of one wheelset.
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, JsonSchema)]
 pub struct ContactLoss {
     /// Wheel, from 1 at the front.
     pub wheel: usize,

@@ -1,7 +1,7 @@
 //! `ttb check`: is an FMU what it says, and does it keep what the standard promises?
 //!
 //! Archive and description are read here; whatever runs code of the FMU runs in a process of its own, one per check
-//! ([`worker`]), so that a crash or a hang is a finding and not the end. A worker reports through a file, since the FMU
+//! (`worker.rs`), so that a crash or a hang is a finding and not the end. A worker reports through a file, since the FMU
 //! may print.
 
 mod context;

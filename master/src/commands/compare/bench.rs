@@ -1,7 +1,6 @@
 //! What all rows of the table share, and how one is stepped.
 
 use std::ops::ControlFlow;
-use std::sync::atomic::{AtomicBool, Ordering};
 
 use ttb_scenario::Checked;
 use ttb_session::observe::{Begin, Moment, Observer};
@@ -11,6 +10,7 @@ use crate::clock::cpu;
 use crate::commands::progress::progress_bar;
 use crate::error::Error;
 use crate::results::ran::{Ran, Watched};
+use crate::signals::Stop;
 
 /// What all rows share.
 pub struct Bench<'a> {
@@ -20,8 +20,8 @@ pub struct Bench<'a> {
     pub watched: Watched,
     /// CPU seconds a row may take.
     pub budget: f64,
-    /// Set by a signal.
-    pub stop: &'a AtomicBool,
+    /// What is asked from outside.
+    pub stop: &'a Stop,
     /// No progress.
     pub quiet: bool,
 }
@@ -75,7 +75,7 @@ impl Observer for Watch<'_, '_> {
         self.ran.iterations += info.iterations as u64;
         (self.tell)(moment.n);
         self.ran.stepping = cpu() - self.begun;
-        let over = self.ran.stepping > self.bench.budget || self.bench.stop.load(Ordering::Relaxed);
+        let over = self.ran.stepping > self.bench.budget || self.bench.stop.asked().is_some();
         Ok(if over { ControlFlow::Break(()) } else { ControlFlow::Continue(()) })
     }
 }

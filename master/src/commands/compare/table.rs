@@ -6,6 +6,7 @@ use serde::Serialize;
 use ttb_scenario::Checked;
 
 use crate::error::Error;
+use crate::files;
 use crate::results::ran::{QUANTITIES, Ran, Watched};
 
 /// A row as it is shown.
@@ -87,15 +88,12 @@ impl Table {
 
     /// Writes compare.csv and compare.json.
     pub fn write(&self, checked: &Checked, folder: &Path) -> Result<(), Error> {
-        let path = folder.join("compare.json");
         let titled = serde_json::json!({ "title": checked.scenario.title, "scenario_sha256": checked.hash,
             "quantities": self.quantities, "reference_step_s": self.reference_step_s, "rows": self.rows });
-        let text =
-            serde_json::to_string_pretty(&titled).map_err(|e| Error::Io { path: path.clone(), source: e.into() })?;
-        std::fs::write(&path, text + "\n").map_err(Error::io(&path))?;
+        files::write_json(&folder.join("compare.json"), &titled)?;
         let path = folder.join("compare.csv");
         let failed = |e: csv::Error| Error::Io { path: path.clone(), source: e.into() };
-        let mut file = csv::Writer::from_path(&path).map_err(failed)?;
+        let mut file = csv::Writer::from_writer(Vec::new());
         let mut header: Vec<String> = [
             "method",
             "step_s",
@@ -125,7 +123,8 @@ impl Table {
             }
             file.write_record(&fields).map_err(failed)?;
         }
-        file.flush().map_err(Error::io(&path))
+        let text = file.into_inner().map_err(|e| e.into_error()).map_err(Error::io(&path))?;
+        files::write(&path, &text)
     }
 
     /// The paper's Table 2.
@@ -137,7 +136,7 @@ impl Table {
         for (q, quantity) in self.quantities.iter().enumerate() {
             say!("  ({}) {quantity}", (b'a' + q as u8) as char);
         }
-        say!();
+        say!("");
         say!(
             "{:<24} {:>7} {:>8} {:>10} {:>10} {:>6}   {:>8} {:>8} {:>8} {:>8}  {:>9}",
             "method",

@@ -1,0 +1,118 @@
+//! Ends that come from outside: Ctrl-C, a request to end, a terminal that has gone.
+//!
+//! ```text
+//! first signal    where results can be kept ([`Stop::gently`]): noticed after the step at hand; elsewhere the end
+//! second signal   the end, at once
+//! ```
+//!
+//! An end at once leaves no temporary folder either. A signal that was ignored when the program began (`nohup`) stays so.
+
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicBool, AtomicI32, Ordering};
+use std::sync::{Arc, Mutex, PoisonError};
+
+use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
+use signal_hook::iterator::Signals;
+use ttb_fmi::leave;
+
+/// A signal that ends the program.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Signal(i32);
+
+impl Signal {
+    /// As in manuals.
+    pub fn name(self) -> &'static str {
+        match self.0 {
+            SIGINT => "SIGINT",
+            SIGTERM => "SIGTERM",
+            _ => "SIGHUP",
+        }
+    }
+
+    /// Exit code of a program that it ended: 128 + its number.
+    pub fn code(self) -> u8 {
+        128 + self.0 as u8
+    }
+}
+
+/// What has been asked from outside.
+#[derive(Clone, Debug, Default)]
+pub struct Stop {
+    asked: Arc<AtomicI32>,
+    flag: Arc<AtomicBool>,
+    gentle: Arc<AtomicBool>,
+    removed: Arc<Mutex<Vec<PathBuf>>>,
+}
+
+impl Stop {
+    /// Watches for signals from now on, in a thread of its own.
+    pub fn watch() -> Self {
+        let stop = Self::default();
+        let watched = [SIGINT, SIGTERM, SIGHUP].into_iter().filter(|signal| !is_ignored(*signal));
+        match Signals::new(watched) {
+            Ok(mut signals) => {
+                let seen = stop.clone();
+                std::thread::spawn(move || signals.forever().for_each(|signal| seen.take(signal)));
+            }
+            // Without a handler a signal ends the program at once: no reason not to run.
+            Err(error) => note!("ttb: warning: Ctrl-C will not keep results: {error}"),
+        }
+        stop
+    }
+
+    fn take(&self, signal: i32) {
+        let first = self.asked.swap(signal, Ordering::Relaxed) == 0;
+        self.flag.store(true, Ordering::Relaxed);
+        if !(first && self.gentle.load(Ordering::Relaxed)) {
+            for path in self.removed.lock().unwrap_or_else(PoisonError::into_inner).iter() {
+                // A folder goes only if it is empty.
+                let _ = std::fs::remove_file(path).or_else(|_| std::fs::remove_dir(path));
+            }
+            leave(Signal(signal).code());
+        }
+    }
+
+    /// Names a file, or a folder that may be empty, which is removed at an end at once.
+    pub fn removes(&self, path: &Path) {
+        self.removed.lock().unwrap_or_else(PoisonError::into_inner).push(path.to_path_buf());
+    }
+
+    /// From now on a first signal is only noted: who calls this looks at [`Stop::asked`] between steps.
+    pub fn gently(&self) {
+        self.gentle.store(true, Ordering::Relaxed);
+    }
+
+    /// Set once a signal has asked for the end.
+    pub fn flag(&self) -> &AtomicBool {
+        &self.flag
+    }
+
+    /// The signal that has asked for the end.
+    pub fn asked(&self) -> Option<Signal> {
+        Some(self.asked.load(Ordering::Relaxed)).filter(|signal| *signal != 0).map(Signal)
+    }
+}
+
+/// Whether the program was begun with a signal ignored, as the kernel tells: a mask of bits, signal 1 the lowest.
+fn is_ignored(signal: i32) -> bool {
+    let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let mask = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));
+    let mask = mask.and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok()).unwrap_or(0);
+    mask >> (signal - 1) & 1 == 1
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_first_signal_is_noted_and_has_the_code_of_a_program_that_it_ended() {
+        let stop = Stop::default();
+        assert_eq!(stop.asked(), None);
+        stop.gently();
+        stop.take(SIGTERM);
+        let signal = stop.asked().unwrap();
+        assert_eq!((signal.name(), signal.code()), ("SIGTERM", 143));
+        assert_eq!((Signal(SIGHUP).code(), Signal(SIGINT).code()), (129, 130));
+    }
+}
