@@ -14,7 +14,7 @@ use ttb_train_track::TrainTrack;
 
 /// Results by name, one vector over time each, row 0 at t = 0.
 pub struct Table {
-    /// t, s.
+    /// Time of each row, s.
     pub time: Vec<f64>,
     /// Names and values of all outputs.
     pub columns: Vec<(String, Vec<f64>)>,
@@ -82,7 +82,8 @@ pub fn example(name: &str) -> Checked {
     ttb_scenario::load(&examples().join(name)).unwrap_or_else(|problems| panic!("{problems}"))
 }
 
-/// R1 with a bridge of `mass` kg/m, bending stiffness scaled alike (so are its frequencies kept), and steps of `h` s.
+/// R1 with a bridge of `mass` kg/m and steps of `h` s; the bending stiffness is scaled with the mass, which keeps the
+/// frequencies.
 ///
 /// # Panics
 /// R1 is not what it was.
@@ -105,7 +106,7 @@ pub fn sides(checked: &Checked) -> Sides<TrainTrack, Bridge> {
     Sides::new(train_track, bridge, &Case::of(checked)).expect("initialization")
 }
 
-/// Takes all steps of a case with any two subsystems; what the coupling found out is told, too.
+/// Takes all steps of a case with any two subsystems, and returns the report of the coupling, too.
 ///
 /// # Errors
 /// The run fails.

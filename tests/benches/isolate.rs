@@ -1,5 +1,5 @@
-//! What isolating FMUs costs, with two trivial C FMUs and 1,000 couplings each way: a sweep of the iteration and single
-//! calls, in this process and isolated. `cargo bench -p ttb-tests --bench isolate`; needs a C compiler (`cc`).
+//! The cost of isolating FMUs, with two trivial C FMUs and 1,000 coupled values in each direction: a trial of the iteration
+//! and single calls, in this process and isolated. `cargo bench -p ttb-tests --bench isolate`; needs a C compiler (`cc`).
 
 mod trivial;
 
@@ -72,7 +72,7 @@ fn main() {
     }
 }
 
-/// Single calls for next to nothing: one after the other, and after pauses in which the host goes to sleep.
+/// Single calls that do almost nothing: one after the other, and after pauses in which the host goes to sleep.
 fn calls(bridge: &mut FmuSubsystem) {
     for pause in [0, 10, 50, 500].map(Duration::from_micros) {
         let calls = if pause.is_zero() { 50_000 } else { 2_000 };

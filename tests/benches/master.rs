@@ -1,5 +1,5 @@
-//! The master's own cost with two trivial C FMUs and 1,000 couplings each way: a step's time without that inside the FMU
-//! calls. `cargo bench -p ttb-tests --bench master`; needs a C compiler (`cc`).
+//! The master's own cost with two trivial C FMUs and 1,000 coupled values in each direction: a step's time less that
+//! inside the FMU calls. `cargo bench -p ttb-tests --bench master`; needs a C compiler (`cc`).
 
 mod trivial;
 

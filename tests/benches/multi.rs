@@ -1,4 +1,4 @@
-//! What sub-steps cost: 1 ms, 1 ms in 10 sub-steps, 0.1 ms, all on the plain libraries and in one run of this program:
+//! The cost of sub-steps: 1 ms, 1 ms in 10 sub-steps, 0.1 ms, all on the plain libraries and in one run of this program:
 //! `cargo bench -p ttb-tests --bench multi [-- EXAMPLE…]`.
 
 use std::cell::Cell;

@@ -49,7 +49,7 @@ class Fault:
 
     name: str
     found: set[str]
-    # None: not asserted. Crashes and hangs need the FMU in a process of its own, lies about states a test at the start.
+    # None: not asserted. Crashes and hangs need the FMU in a process of its own, states that are not restored a test at the start.
     code: int | None = 4
     says: str = ""
     defines: list[str] = field(default_factory=list)

@@ -28,7 +28,7 @@ def findings(ttb, path, expect):
 
 
 def test_our_fmus_are_without_findings(ttb, any_fmu):
-    """issues 4: what ours promise they keep."""
+    """Our FMUs do what their descriptions say."""
     assert ttb("check", any_fmu.path).stdout == f"{any_fmu.path}: no findings\n"
 
 
@@ -41,7 +41,7 @@ def test_a_sound_foreign_fmu_is_without_findings(ttb, short, tmp_path, libraries
 
 @pytest.mark.parametrize("fault", ALL, ids=str)
 def test_a_fault_is_found_by_its_name(ttb, tmp_path, libraries, fault):
-    """issues 4, must hold 3."""
+    """Each fault is found under its name."""
     found = findings(ttb, pack(fault, tmp_path, libraries), fault.checked)
     assert {finding["name"] for finding in found} == fault.found, found
     assert all(finding["what"] for finding in found)
@@ -49,7 +49,7 @@ def test_a_fault_is_found_by_its_name(ttb, tmp_path, libraries, fault):
 
 @pytest.mark.parametrize("fault", [fault for fault in ALL if fault.code is not None], ids=str)
 def test_a_run_ends_with_the_right_code_and_names_the_fmu(ttb, short, tmp_path, libraries, fault):
-    """issues 4, must hold 3: message, exit code, results kept."""
+    """Message and exit code are as expected, and results are kept."""
     theirs, out = pack(fault, tmp_path, libraries), tmp_path / "out"
     said = ttb("run", short, "--bridge", theirs, "-o", out, expect=fault.code).stderr
     if fault.code != 0 or fault.says:
@@ -81,7 +81,7 @@ def test_a_remark_is_told_and_is_no_failure(ttb, tmp_path, libraries):
 
 
 def test_a_crash_says_during_which_call(ttb, tmp_path, libraries):
-    """With what the call was made; temporary folders stay out of it."""
+    """The arguments of the call; temporary folders are not shown."""
     for define, call in [
         ("URI_CRASH", "fmi2Instantiate with the resources file:/FMU/resources"),
         ("STEP_CRASH", "fmi2DoStep from t = 0.3 s by 0.001 s"),

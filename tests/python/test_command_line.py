@@ -51,7 +51,7 @@ def test_the_schema_is_json_and_names_what_the_examples_use(ttb, examples):
 
 @pytest.mark.parametrize("command", [["run"], ["build"], ["check-scenario"]])
 def test_a_broken_scenario_brings_all_its_problems_at_once(ttb, examples, tmp_path, command):
-    """issues: main job, point 4: path and rule of each, exit 2, nothing written."""
+    """Path and rule of each problem, exit code 2, nothing written."""
     broken = changed(examples / "r1.json", tmp_path / "broken.json", BROKEN)
     output = [] if command == ["check-scenario"] else ["-o", tmp_path / "out"]
     done = ttb(*command, broken, *output, expect=2, cwd=tmp_path)
@@ -78,7 +78,7 @@ def test_a_scenario_that_is_not_there_is_bad_input(ttb, tmp_path):
     ids=str,
 )
 def test_a_step_that_does_not_converge_ends_the_run_with_3(ttb, examples, tmp_path, settings):
-    """Time, residual and a way out in the message; the results so far are kept."""
+    """The message has time, residual and advice; the results so far are kept."""
     changes = {f"coupling.{key}": value for key, value in settings.items()}
     scenario = changed(examples / "r1.json", tmp_path / "scenario.json", changes)
     done = ttb("run", scenario, "-o", tmp_path, expect=3)
@@ -127,7 +127,7 @@ def test_fmus_given_on_the_command_line_give_the_same_run(ttb, examples, r1, r1_
 
 
 def test_an_output_folder_that_cannot_be_is_an_io_error(ttb, examples, tmp_path):
-    """A file in the way, of the folder or of a result."""
+    """A file stands where the folder or a result should be."""
     (tmp_path / "file").write_text("")
     assert "file" in ttb("run", examples / "r1.json", "-o", tmp_path / "file", expect=5).stderr
     assert "file" in ttb("build", examples / "r1.json", "-o", tmp_path / "file" / "below", expect=5).stderr

@@ -55,7 +55,7 @@ def test_a_date_that_is_asked_for_is_in_the_files_and_a_wrong_one_is_refused(ttb
 
 
 def test_the_capabilities_are_those_a_master_with_roll_back_needs(root, any_fmu):
-    """issues: main job, FMUs."""
+    """The capabilities that the guide names are declared."""
     kind = root.find("CoSimulation")
     assert re.fullmatch(r"[A-Za-z_]\w*", kind.get("modelIdentifier"))
     needed = ["canHandleVariableCommunicationStepSize", "canInterpolateInputs", "canGetAndSetFMUstate", "canSerializeFMUstate"]

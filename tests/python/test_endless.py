@@ -25,7 +25,7 @@ with FMU2Instance(Fmu(sys.argv[2])) as instance:
     [("train_track", "step_size", 1e-12), ("train_track", "pre_roll", 1e10), ("bridge", "step_size", 1e-12)],
 )
 def test_a_parameter_that_asks_for_endless_work_is_refused(r1, side, name, value):
-    """issues: main job: an impossible parameter is fmi2Error with a message that says what."""
+    """An impossible parameter is fmi2Error with a message that says what."""
     command = [sys.executable, "-c", SCRIPT, Path(__file__).parent, getattr(r1, side).path, name, str(value)]
     done = subprocess.run(command, capture_output=True, text=True, check=True, timeout=20)
     assert name in done.stdout

@@ -63,7 +63,7 @@ def coupled(ttb, scenario, bridge, map, folder, *more, expect=0):
 
 @pytest.mark.parametrize("mass, h", [(29720, 1e-3), (1000, 1e-3), (1000, 2e-3), (500, 5e-3)])
 def test_a_small_c_fmu_gives_the_answer_of_ours(ttb, reference, tmp_path, mass, h):
-    """issues 4, must hold 1: other names, up-positive, mm and kN, held inputs, no derivatives. Sine waves for 50 elements: that
+    """Other names, up-positive, mm and kN, held inputs, no derivatives. Sine waves for 50 elements: that
     is the difference, 2.4e-6 on the lightest and most coarsely stepped one, 2e-8 on R1."""
     scenario, expected, summary = reference(mass, h)
     found, theirs, _ = coupled(ttb, scenario, beam(mass).write(tmp_path), MAP, tmp_path)
@@ -125,7 +125,7 @@ def test_stations_without_velocities_and_without_roll_back(ttb, reference, tmp_p
 
 @pytest.mark.parametrize("mass, h, code", [(29720, 1e-3, 0), (1000, 1e-3, 0), (500, 5e-3, 3)])
 def test_without_roll_back_a_bound_or_a_refusal(ttb, reference, tmp_path, mass, h, code):
-    """issues 4, must hold 1: the largest residual bounds the error of the rail; a light bridge is refused before its first step."""
+    """The largest residual bounds the error of the rail; a light bridge is refused before its first step."""
     scenario, expected, _ = reference(mass, h)
     bridge = beam(mass, roll_back=False).write(tmp_path)
     found, summary, said = coupled(ttb, scenario, bridge, MAP, tmp_path, expect=code)
@@ -190,7 +190,7 @@ def python_path(monkeypatch):
 @needs_libpython
 @pytest.mark.parametrize("isolate", [[], ["--isolate"]], ids=["in-process", "isolated"])
 def test_a_python_fmu_with_state_hooks_gives_the_answer_of_ours(ttb, reference, tmp_path, python_bridge, python_path, isolate):
-    """issues 4, must hold 1: the same 50 elements, the same rule; the iteration's tolerance is 1e-8."""
+    """The same 50 elements, the same rule; the iteration's tolerance is 1e-8."""
     scenario, expected, _ = reference(29720, 1e-3)
     found, summary, _ = coupled(ttb, scenario, python_bridge(True), PYTHON_MAP, tmp_path, "--preload", libpython(), *isolate)
     assert max(errors(found, expected)) < 1e-7

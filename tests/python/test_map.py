@@ -99,7 +99,7 @@ def test_lists_of_names_and_units_that_are_declared_need_no_factor(ttb, r1, r1_r
 
 
 def test_parameters_reach_the_fmu(ttb, r1, r1_run, examples, tmp_path):
-    """Twice as stiff a deck sags half as much; an empty map means our own names."""
+    """A deck twice as stiff deflects half as much; an empty map means our own names."""
     stiff = write(tmp_path, {"parameters": {"stiffness_factor": 2.0, "mass_factor": 1.0}})
     ttb("run", examples / "r1.json", "--bridge", r1.bridge.path, "--map", stiff, "-o", tmp_path / "out", "--quiet")
     sag = [read_csv(folder / "results.csv")["point[mid].displacement"].max() for folder in (tmp_path / "out", r1_run)]

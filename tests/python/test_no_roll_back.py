@@ -40,7 +40,7 @@ def test_it_steps_once_and_the_estimate_bounds_the_error(ttb, examples, r1_run, 
     found = json.loads((tmp_path / "summary.json").read_text())
     coupling, iterations = found["coupling"], found["iterations"]
     assert (coupling["method"], iterations["explicit"], iterations["not_converged"]) == ("explicit", 1100, 0)
-    # By derivatives, or by another instance of the FMU that is thrown away: the same number.
+    # By derivatives or by trial instances of the FMU: the same number.
     assert coupling["contraction_at_start"] == pytest.approx(1.762e-3, rel=1e-3)
     iterated, once = (read_csv(folder / "results.csv")[MID] for folder in (r1_run, tmp_path))
     error = np.abs(once - iterated).max() / np.abs(iterated).max()
@@ -51,7 +51,7 @@ def test_it_steps_once_and_the_estimate_bounds_the_error(ttb, examples, r1_run, 
 
 @pytest.mark.parametrize("derivatives", [True, False], ids=["derivatives", "none"])
 def test_a_coupling_that_is_not_stable_without_it_ends_with_3(ttb, examples, tmp_path, derivatives):
-    """The contraction and a way out in the message, before the first step."""
+    """The message has the contraction and advice, before the first step."""
     light = {"type": "beams", "spans": [{"length": 32.5, "bending_stiffness": 4.4e9, "mass": 300, "elements": 50}]}
     scenario = changed(examples / "r1.json", tmp_path / "light.json", {"bridge.structure": light, "time.step": 5e-3})
     ttb("build", scenario, "-o", tmp_path)

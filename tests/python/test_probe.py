@@ -1,4 +1,4 @@
-"""Trial steps before the run: FMUs that lie about their states, signs and units that are wrong, bridges that are sound."""
+"""Trial steps before the run: FMUs whose states are not restored, wrong signs and units, bridges without fault."""
 
 import json
 import re
@@ -32,18 +32,18 @@ def results(ttb, scenario, bridge, out, *more):
     return said, read_csv(out / "results.csv"), json.loads((out / "summary.json").read_text())
 
 
-@pytest.mark.parametrize("lie", ["SET_NOTHING", "SET_FORGETS_VELOCITY", "HISTORY"])
-def test_a_bridge_that_lies_about_its_states_runs_as_one_that_has_none(ttb, short, tmp_path, libraries, lie):
-    """issues 4: the same bits as if it had told the truth, and a warning."""
+@pytest.mark.parametrize("fault", ["SET_NOTHING", "SET_FORGETS_VELOCITY", "HISTORY"])
+def test_a_bridge_whose_states_are_not_restored_runs_as_one_without_roll_back(ttb, short, tmp_path, libraries, fault):
+    """The same bits as if its description did not promise roll-back, and a warning."""
     runs = []
-    for name, replace in (("lies", []), ("honest", [NO_STATES])):
+    for name, replace in (("promised", []), ("not_promised", [NO_STATES])):
         (tmp_path / name).mkdir()
-        theirs = pack(Fault("", set(), defines=[lie], replace=replace), tmp_path / name, libraries)
+        theirs = pack(Fault("", set(), defines=[fault], replace=replace), tmp_path / name, libraries)
         runs.append(results(ttb, short, theirs, tmp_path / name / "out"))
-    (said, lying, summary), (_, honest, _) = runs
+    (said, promised, summary), (_, not_promised, _) = runs
     assert "a step repeated from a restored state differs" in said
     assert summary["coupling"]["method"] == "explicit"
-    assert np.array_equal(lying, honest)
+    assert np.array_equal(promised, not_promised)
 
 
 HARMLESS = ["STATIC_STATE", "SAVE_DISTURBS", "SET_ONLY_NEAR", "SET_FORGETS_INPUTS", "WRONG_DERIVATIVES", "RESET_KEEPS", "STATE_LEAK"]
@@ -115,7 +115,7 @@ WRONG = {
 @pytest.mark.parametrize("rolls_back", [True, False], ids=["roll-back", "none"])
 @pytest.mark.parametrize("case", WRONG)
 def test_a_wrong_sign_or_unit_is_refused_with_the_factor_that_mends_it(ttb, examples, r1, tmp_path, case, rolls_back):
-    """The map says what their bridge is not; ours is theirs here."""
+    """The map does not fit the bridge, which is one of ours."""
     factors, mended = WRONG[case]
     bridge = r1.bridge.path if rolls_back else copy(r1.bridge, tmp_path, {DESCRIPTION: replaced(*NO_STATES)}).path
     names = ["force", "displacement", "velocity"]
@@ -141,7 +141,7 @@ def test_motions_that_begin_at_another_number_are_refused(ttb, examples, r1, tmp
 
 
 def test_no_probe_leaves_it_to_the_user(ttb, examples, r1, tmp_path):
-    """Even what is wrong."""
+    """--no-probe: also a wrong sign is not looked for."""
     map = {name: series(name, factor) for name, factor in (("force", 1e-3), ("displacement", 1), ("velocity", 1))}
     (tmp_path / "map.json").write_text(json.dumps(map))
     ttb("run", examples / "r1.json", "--bridge", r1.bridge.path, "--map", tmp_path / "map.json", "--no-probe", "-o", tmp_path / "out")

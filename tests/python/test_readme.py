@@ -1,4 +1,4 @@
-"""What README.md and docs/ show is true: their Python runs beside R1's FMUs and results, their scenarios are sound."""
+"""The examples in README.md and docs/ work: their Python runs beside R1's FMUs and results, their scenarios have no problems."""
 
 import re
 import subprocess
@@ -33,7 +33,7 @@ def whole_scenarios():
 
 
 def test_the_readme_shows_an_fmu_in_fmpy_and_a_scenario():
-    """issues: main job, point 6: a snippet that a test runs."""
+    """Both are there, so that the tests below have something to run."""
     in_readme = [block.values[0] for block in snippets("python") if block.id.startswith("README.md")]
     assert any("fmpy" in block and "ttb-out/" in block for block in in_readme)
     assert any(block.id.startswith("README.md") for block in whole_scenarios())

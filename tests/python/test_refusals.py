@@ -51,7 +51,7 @@ def test_a_wrong_guid_is_refused_at_instantiation(fmu, tmp_path):
     ids=["missing", "cut off", "empty", "no text", "misspelt"],
 )
 def test_a_missing_or_damaged_resource_is_refused_by_name(fmu, tmp_path, change, reason):
-    """issues: main job, FMUs."""
+    """No instance is made; the message names the file and what is wrong with it."""
     resource = RESOURCE[fmu.identifier]
     text = instantiation_refusal(copy(fmu, tmp_path, {resource: change}))
     assert resource in text and reason in text
@@ -100,7 +100,7 @@ def test_a_late_parameter_is_refused_and_the_run_goes_on(fmu):
 
 @pytest.mark.parametrize("value", [float("nan"), float("inf")])
 def test_an_input_that_is_no_number_is_refused(fmu, value):
-    """One NaN would poison everything it meets."""
+    """One NaN would make all later results NaN."""
     name = fmu.names("input")[0]
     references = fmu.references([name])
     with FMU2Instance(fmu) as instance:
@@ -135,7 +135,7 @@ def test_calls_out_of_order_are_refused(fmu):
 
 
 def test_a_train_that_leaves_the_track_is_refused_by_name(r1):
-    """The rail ends: fmi2Error with what, where and when; outputs stay readable, and reset heals."""
+    """The rail ends: fmi2Error with what, where and when; outputs can still be read, and fmi2Reset makes the instance usable again."""
     with FMU2Instance(r1.train_track) as train_track:
         train_track.initialize()
         text = refusal(train_track, train_track.doStep, 0.0, 5.0)

@@ -1,4 +1,4 @@
-"""How importers say where the resources are, and what callbacks they bring (docs/guide/fmus.md): every way that was met."""
+"""How importers say where the resources are, and what callbacks they bring (docs/guide/fmus.md): every form that was met."""
 
 from ctypes import byref
 from urllib.parse import quote

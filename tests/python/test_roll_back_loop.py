@@ -1,6 +1,6 @@
 """Both FMUs in an FMPy loop with roll-back, written in Python, give the master's result: iterations and every bit.
 
-So the master does nothing that another master cannot do with the same FMUs (issues: main job, point 3).
+So the master does nothing that another master cannot do with the same FMUs.
 """
 
 import csv

@@ -41,7 +41,7 @@ def test_two_girders_are_the_viaduct(ttb, viaduct, tmp_path):
 
 
 def test_one_of_them_without_roll_back_makes_all_explicit(ttb, viaduct, tmp_path):
-    """As strong as the weakest; the estimate bounds the error."""
+    """If one bridge cannot roll back, none does; the estimate bounds the error."""
     scenario, girder, joined = viaduct
     (tmp_path / "limited").mkdir()
     change = replaced('canGetAndSetFMUstate="true"', 'canGetAndSetFMUstate="false"')

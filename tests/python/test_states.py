@@ -112,7 +112,7 @@ def test_after_reset_the_run_is_the_same(fmu):
 
 
 def test_instances_in_threads_do_not_disturb_each_other(fmu):
-    """Architecture, invariant 8: eight instances in four threads, all as one alone."""
+    """Architecture, invariant 10: eight instances in four threads, all as one alone."""
 
     def run(number):
         with FMU2Instance(fmu, name=f"number {number}") as instance:

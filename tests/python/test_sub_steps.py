@@ -17,7 +17,7 @@ def run(ttb, examples, folder, changes, *arguments, name="r1.json"):
 
 @pytest.fixture(scope="module")
 def chosen(ttb, examples, tmp_path_factory):
-    """R1 with a step that is left to the program."""
+    """R1 with a step chosen by the program."""
     folder = tmp_path_factory.mktemp("auto")
     summary, done = run(ttb, examples, folder, {"time.step": "auto"})
     return folder, summary, done

@@ -1,4 +1,4 @@
-"""Other people's validators find nothing on either FMU, and something on a spoilt one."""
+"""Validators of other projects find nothing wrong with either FMU, and something with a spoilt one."""
 
 import io
 import subprocess
@@ -27,7 +27,7 @@ def schema_findings(fmu):
 
 
 def fmutool_findings(fmu):
-    """`fmutool -check` of the FMU Manipulation Toolbox: all it says that is not mere information."""
+    """`fmutool -check` of the FMU Manipulation Toolbox: its messages other than plain information."""
     command = [Path(sys.executable).with_name("fmutool"), "-input", fmu.path, "-check"]
     done = subprocess.run(command, capture_output=True, text=True)
     said = (done.stdout + done.stderr).splitlines()
@@ -40,12 +40,12 @@ VALIDATORS = [fmpy_findings, schema_findings, fmutool_findings]
 
 @pytest.mark.parametrize("findings", VALIDATORS)
 def test_a_validator_finds_nothing(any_fmu, findings):
-    """issues: main job, point 3."""
+    """Every validator accepts both FMUs without a finding."""
     assert findings(any_fmu) == []
 
 
 @pytest.mark.parametrize("findings", VALIDATORS)
 def test_a_validator_finds_an_input_called_an_inpout(r1, findings, tmp_path):
-    """The control: each of them would notice."""
+    """The control: each validator finds a fault that is there."""
     spoilt = copy(r1.bridge, tmp_path, {DESCRIPTION: replaced('causality="input"', 'causality="inpout"')})
     assert findings(spoilt) != []

@@ -1,4 +1,5 @@
-//! `ttb run --isolate`: the same bits as without, and results, message and exit code when an FMU crashes, ends or hangs.
+//! `ttb run --isolate`: results with the same bits as without it, and results, message and exit code when an FMU crashes, ends
+//! the process or does not come back.
 #![cfg(target_os = "linux")]
 
 use std::io::{Read, Write};
@@ -195,7 +196,7 @@ fn an_interrupt_or_the_end_of_the_program_leaves_nothing_behind() {
         let pid = child.id().to_string();
         assert!(Command::new("kill").args([signal, &pid]).status().expect("kill").success());
         assert_eq!(child.wait().expect("ttb").code(), code);
-        // In this process a killed program leaves the folders of its FMUs; the isolated one is removed.
+        // A program ended by SIGKILL leaves the folders of FMUs in its own process; that of an isolated FMU is removed.
         if code.is_none() {
             let left: Vec<_> = std::fs::read_dir(folder.path().join("tmp")).expect("folder").flatten().collect();
             left.iter().for_each(|entry| {

@@ -62,7 +62,7 @@ impl<B: Subsystem> Subsystem for Limited<B> {
     }
 }
 
-/// What a run took, and mid-span displacement over time.
+/// The report of a run, and the mid-span displacement over time.
 struct Ran {
     mean: f64,
     most: usize,

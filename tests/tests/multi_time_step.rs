@@ -48,7 +48,7 @@ fn the_rail_accelerates_as_in_small_steps_though_the_bridge_takes_large_ones() {
     {
         assert!(off(&fine, &multi, name, 10) < most, "{name}");
     }
-    // The bridge steps no more often for it.
+    // Sub-steps do not raise the number of steps of the bridge.
     assert!(trials(&multi) < trials(&coarse) + 0.1, "{} {}", trials(&multi), trials(&coarse));
 }
 
@@ -60,7 +60,7 @@ fn no_work_is_made_or_lost_at_the_interface() {
         checked.scenario.coupling.method = method;
         let work = library_run(&checked).work;
         println!("{mass} kg/m, {method:?}: {:.1e}, exchange {:.1e}", work.imbalance(), work.exchange_imbalance());
-        // What the iteration leaves is below its tolerance; the exchange itself makes nothing.
+        // The imbalance that the iteration leaves is below its tolerance; the exchange itself makes none.
         assert!(work.exchange_imbalance() < 1e-12 && work.imbalance() < 1e-6, "{work:?}");
         assert!(work.received > 0.0, "{work:?}");
         checked.scenario.coupling.tolerance = 1e-12;
@@ -70,8 +70,8 @@ fn no_work_is_made_or_lost_at_the_interface() {
     }
 }
 
-/// A foreign bridge: an undamped mass on a spring under all supports, integrated exactly under held forces, which is all
-/// that it understands.
+/// A foreign bridge: an undamped mass on a spring under all supports, integrated exactly under held forces, the only inputs
+/// that it supports.
 struct Oscillator {
     mass: f64,
     omega: f64,

@@ -48,7 +48,7 @@ fn difference(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max) / scale
 }
 
-/// Runs the case by every method at its own step and holds all against the hybrid algorithm.
+/// Runs the case by every method at its own step and compares all with the hybrid algorithm.
 fn all_methods_agree(mut checked: Checked, methods: &[Method], allowed: f64) {
     checked.scenario.coupling.tolerance = 1e-10;
     let table = library_run(&checked);
@@ -145,7 +145,7 @@ fn the_loosely_coupled_method_converges_as_far_as_theory_says() {
             if try_run(&whole, Method::Lcm(1.0), h, 0.2, 1e-6).is_ok() { low = h } else { high = h }
         }
         record.row(format!("R1, smooth, {wheels} contacts an axle"), 1e3 * limit, 1e3 * low, 0.03);
-        // Relaxed it goes on.
+        // The relaxed method converges at longer steps.
         try_run(&whole, Method::Lcm(0.4), 1e-3, 0.2, 1e-6).unwrap_or_else(|e| panic!("{e}"));
     }
     record.finish();

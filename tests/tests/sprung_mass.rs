@@ -2,7 +2,7 @@
 //! 5,750 kg on 1.595 MN/m at 27.78 m/s; mid-span 2.40730 mm at 0.3710 s with 20 modes), by the whole chain: car, contact,
 //! rail, supports, iteration, bridge.
 //!
-//! A bogie whose pitch inertia is M_b L_t² moves like two masses M_b/2 over its axles that do not feel each other; the car is
+//! A bogie whose pitch inertia is M_b L_t² moves like two masses M_b/2 over its axles that do not act on each other; the car is
 //! so long that only the leading axle comes near the bridge, and rail and supports are light and stiff.
 
 use std::path::Path;

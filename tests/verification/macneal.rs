@@ -49,7 +49,7 @@ fn pull(s: &mut Structure, motion: usize) {
 }
 
 /// Grade A of MacNeal & Harder is an error within 2 %, B within 10 %; 3 % is asked of quadrilaterals. One triangle's width
-/// on slanted meshes is reported only; there a mesh four times as fine each way has to reach grade B.
+/// on slanted meshes is reported only; there a mesh four times as fine in each direction has to reach grade B.
 #[test]
 fn straight_cantilever() {
     let mut table =

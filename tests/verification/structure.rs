@@ -7,11 +7,11 @@ use ttb_sparse::{Assembly, Pencil};
 /// Shape of the elements a surface is made of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Shape {
-    /// Quadrilaterals.
+    /// Elements with four corners.
     Quad,
-    /// Each quadrilateral cut from its first to its third corner.
+    /// Triangles: each quadrilateral cut from its first to its third corner.
     Triangle,
-    /// Cut from its second to its fourth.
+    /// Triangles: each quadrilateral cut from its second to its fourth corner.
     OtherTriangle,
 }
 
@@ -30,7 +30,7 @@ pub const RZ: usize = 5;
 /// All of a node's motions.
 pub const ALL: [usize; 6] = [X, Y, Z, RX, RY, RZ];
 
-/// Nodes, elements, what is held, loads.
+/// Nodes, elements, fixed motions and loads.
 #[derive(Default)]
 pub struct Structure {
     /// Places of the nodes.
@@ -41,7 +41,7 @@ pub struct Structure {
 }
 
 impl Structure {
-    /// Nodes only.
+    /// A structure of nodes alone, at these places.
     pub fn new(nodes: Vec<[f64; 3]>) -> Self {
         let n = nodes.len();
         Self { nodes, elements: Vec::new(), held: vec![[None; 6]; n], load: vec![[0.0; 6]; n] }
@@ -85,14 +85,14 @@ impl Structure {
         (0..self.nodes.len()).filter(|i| condition(self.nodes[*i])).collect()
     }
 
-    /// Holds motions of the nodes that fulfil a condition.
+    /// Fixes motions of the nodes that fulfil a condition.
     pub fn hold(&mut self, condition: impl Fn([f64; 3]) -> bool, motions: &[usize]) {
         for node in self.nodes_where(condition) {
             motions.iter().for_each(|&motion| self.held[node][motion] = Some(0.0));
         }
     }
 
-    /// Gives one motion of a node.
+    /// Prescribes one motion of a node.
     pub fn prescribe(&mut self, node: usize, motion: usize, value: f64) {
         self.held[node][motion] = Some(value);
     }

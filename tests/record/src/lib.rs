@@ -7,21 +7,21 @@ use std::path::PathBuf;
 
 use serde::{Deserialize, Serialize};
 
-/// One comparison.
+/// One comparison of a computed value with an expected one.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Row {
     /// What is compared.
     pub case: String,
-    /// As published or from the closed form.
+    /// The expected value, published or from a closed form.
     pub expected: f64,
-    /// As computed.
+    /// The computed value.
     pub computed: f64,
     /// Greatest relative error; absent: only reported.
     pub tolerance: Option<f64>,
 }
 
 impl Row {
-    /// Computed over expected, less one.
+    /// Relative error: computed over expected, less one.
     pub fn error(&self) -> f64 {
         self.computed / self.expected - 1.0
     }
@@ -34,13 +34,13 @@ impl Row {
 /// The rows of one benchmark.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Table {
-    /// Heading.
+    /// Heading of the table in the report.
     pub title: String,
-    /// Where the expected values stand.
+    /// Source of the expected values.
     pub source: String,
     /// The command that computes it.
     pub command: String,
-    /// The comparisons.
+    /// The comparisons, in the order in which they were added.
     pub rows: Vec<Row>,
 }
 
@@ -113,7 +113,7 @@ pub fn blessing() -> bool {
     std::env::var_os("TTB_BLESS").is_some_and(|value| value == "1")
 }
 
-/// docs/verification.
+/// The folder docs/verification of the repository.
 pub fn folder() -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../docs/verification")
 }
@@ -124,7 +124,7 @@ fn rounded(x: f64) -> f64 {
     }
     let scale = 10_f64.powi(x.abs().log10().floor() as i32);
     let digits = format!("{:e}", (x / scale * DIGITS).round() / DIGITS * scale);
-    // As few digits as say so.
+    // As few digits as the comparison needs.
     digits.parse::<f64>().ok().and_then(|x| format!("{x:.6e}").parse().ok()).unwrap_or(x)
 }
 
