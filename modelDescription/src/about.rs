@@ -1,4 +1,4 @@
-//! What an FMU says of itself besides its interface list.
+//! The description of an FMU besides its interface list.
 
 use crate::date::Date;
 use ttb_contract::Model;

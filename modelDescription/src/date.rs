@@ -4,7 +4,7 @@
 
 use zip::DateTime;
 
-/// The variable of the environment.
+/// Name of the environment variable.
 pub const VARIABLE: &str = "SOURCE_DATE_EPOCH";
 
 /// A moment, UTC.
@@ -17,10 +17,10 @@ pub struct Date {
 }
 
 impl Date {
-    /// The moment that the environment asks for, if it does.
+    /// The moment that the environment variable gives, if it is set.
     ///
     /// # Errors
-    /// It asks for something else than a time from 1980 to 2107, the years that archives know.
+    /// It gives something other than a time from 1980 to 2107, the years that archives know.
     pub fn asked_for() -> Result<Option<Self>, String> {
         let Some(value) = std::env::var_os(VARIABLE).filter(|value| !value.is_empty()) else { return Ok(None) };
         let seconds = value.to_str().and_then(|text| text.parse().ok());

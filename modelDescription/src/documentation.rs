@@ -19,7 +19,7 @@ a positive <code>force</code> presses the bridge down.</li>
 <li>Any step size works; the one of the default experiment is prepared for and fastest.</li>
 </ul>";
 
-/// The page.
+/// The text of the page, HTML.
 pub fn documentation(interface: &Interface, about: &About) -> String {
     let name = escape(about.model_name);
     let mut page = format!(

@@ -6,7 +6,7 @@ use ttb_contract::Interface;
 /// GUID `{8-4-4-4-12}` of an interface: the SHA-256 of its canonical text, cut to a version-8 UUID.
 ///
 /// Any change of a name, type, unit, causality, start value or of this program's version gives another one, so that
-/// value references can never be read off the wrong list.
+/// value references of another list are never used.
 pub fn guid(model_identifier: &str, interface: &Interface) -> String {
     let digest = Sha256::digest(canonical_text(model_identifier, interface));
     let mut bytes: [u8; 16] = std::array::from_fn(|i| digest[i]);

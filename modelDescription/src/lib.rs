@@ -1,6 +1,6 @@
 //! What an FMU says about itself: from one interface list to modelDescription.xml, GUID, documentation and archive.
 //!
-//! [`guid()`] identifies an interface, [`xml()`] describes it, [`documentation`] explains it to a human, and
+//! [`guid()`] identifies an interface, [`xml()`] describes it, [`documentation`] explains it to people, and
 //! [`package::pack`] puts everything into a file that any FMI 2.0 co-simulation importer loads. The export shell
 //! computes the same GUID from the model it has loaded, so that a binary refuses the description of another.
 

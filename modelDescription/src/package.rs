@@ -1,4 +1,4 @@
-//! The FMU archive: deterministic, complete, and never seen half-written.
+//! The FMU archive. The same contents give the same bytes, and no other program ever sees an incomplete file.
 
 use crate::about::About;
 use crate::date::Date;
@@ -30,9 +30,9 @@ pub const LIBRARY_EXTENSION: &str = if cfg!(target_os = "macos") {
 
 /// What goes into an FMU.
 pub struct Contents<'a> {
-    /// The variables.
+    /// The variables of the FMU.
     pub interface: &'a Interface,
-    /// Name, purpose, experiment.
+    /// Name, purpose and default experiment of the FMU.
     pub about: &'a About<'a>,
     /// The shared library, whatever it is called; inside it becomes `binaries/<platform>/<modelIdentifier>.so`.
     pub binary: &'a Path,
@@ -51,22 +51,22 @@ pub enum PackError {
     /// A file cannot be read.
     #[error("{} cannot be read: {source}", path.display())]
     Read {
-        /// Which.
+        /// Path of the file.
         path: PathBuf,
-        /// Why.
+        /// Error of the operating system.
         source: io::Error,
     },
     /// The FMU cannot be written.
     #[error("{} cannot be written: {source}", path.display())]
     Write {
-        /// Which.
+        /// Path of the file.
         path: PathBuf,
-        /// Why.
+        /// Error of the operating system.
         source: io::Error,
     },
 }
 
-/// Writes the FMU to `path`, replacing what was there in one stroke.
+/// Writes the FMU to `path`. A file of that name is replaced by one renaming.
 ///
 /// # Errors
 /// An interface that FMI cannot express, a file that cannot be read, an archive that cannot be written.
@@ -83,7 +83,7 @@ pub fn pack(contents: &Contents, path: &Path) -> Result<(), PackError> {
     Ok(())
 }
 
-/// Writes the entries in the order importers like: the description first.
+/// Writes the entries in the order that importers expect: the description first.
 fn fill(contents: &Contents, file: &File, path: &Path) -> Result<(), PackError> {
     let mut archive =
         Archive { zip: ZipWriter::new(BufWriter::new(file)).set_auto_large_file(), date: contents.about.date, path };

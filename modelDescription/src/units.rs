@@ -22,7 +22,7 @@ pub const UNITS: [Unit; 15] = [
     ("rad/s2", &[("rad", "1"), ("s", "-2")]),
 ];
 
-/// The unit of that name.
+/// The unit with this name, if an interface may use it.
 pub fn find(name: &str) -> Option<&'static Unit> {
     UNITS.iter().find(|(known, _)| *known == name)
 }

@@ -18,29 +18,29 @@ use ttb_contract::{Causality, Interface, Kind, Variable};
 /// Why an interface cannot be described.
 #[derive(Debug, thiserror::Error)]
 pub enum XmlError {
-    /// A unit outside [`units::UNITS`].
+    /// A variable has a unit that is not in [`units::UNITS`].
     #[error("variable {variable} has the unit \"{unit}\"; add it to the table in modelDescription/src/units.rs")]
     UnknownUnit {
         /// Name of the variable.
         variable: String,
-        /// Its unit.
+        /// Unit of the variable.
         unit: &'static str,
     },
-    /// Two variables of one name.
+    /// Two variables have the same name.
     #[error("two variables are called {0}; FMI wants unique names")]
     Duplicate(String),
-    /// A comma breaks CSV readers of importers.
+    /// A name is empty, or has a comma or line break, which CSV readers of importers cannot read.
     #[error("the variable name {0:?} must be non-empty and without comma or line break")]
     BadName(String),
-    /// A number that XML and FMI cannot express.
+    /// A number is not finite.
     #[error("{what} is {value}; it must be finite")]
     NotFinite {
-        /// What has the value.
+        /// Name of the attribute or variable that has the value.
         what: String,
-        /// The value.
+        /// The value that cannot be written.
         value: f64,
     },
-    /// Writing failed.
+    /// The XML could not be written.
     #[error("modelDescription.xml cannot be written: {0}")]
     Io(#[from] io::Error),
 }
