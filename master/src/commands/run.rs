@@ -23,6 +23,7 @@ use crate::prepare::{auto, fmus};
 use crate::results::coupled::CouplingReport;
 use crate::results::folder::Folder;
 use crate::results::job::Job;
+use crate::results::peaks::not_finite;
 use crate::results::provenance::{Provenance, resolved};
 use crate::results::rows::Rows;
 use crate::results::summary::{Seconds, Shown, Summary};
@@ -231,12 +232,14 @@ fn finish(
     quiet: bool,
 ) -> Result<(), Error> {
     let outcome = outcome.and(log.plot.draw(output.folder(), &job.case.title));
+    let bad = not_finite(&log.peaks);
+    warn(bad.as_slice());
     let shown = Shown {
         reached: log.reached,
         seconds: log.seconds(),
         iterations: log.counted,
         coupling: Some(CouplingReport::new(&connected.coupling, &connected.probe)),
-        warnings: connected.warnings.clone(),
+        warnings: connected.warnings.iter().cloned().chain(bad).collect(),
         peaks: Some(&log.peaks),
     };
     let summary = Summary::new(job, Some(&outcome), &shown);

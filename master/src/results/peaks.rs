@@ -48,3 +48,39 @@ pub fn told(peaks: &Peaks, choice: Option<&Choice>) -> Vec<Peak> {
     };
     peaks.all().iter().map(tell).collect()
 }
+
+/// A sentence on columns that were not finite at all times, if there are any.
+pub fn not_finite(peaks: &Peaks) -> Option<String> {
+    let mut bad = peaks.all().iter().filter_map(|peak| Some((&peak.column, peak.not_finite_from?)));
+    let (column, from) = bad.next()?;
+    let more = match bad.count() {
+        0 => String::new(),
+        count => format!(" (and {count} more)"),
+    };
+    Some(format!(
+        "{column}{more} was NaN or infinite, first at t = {from} s: its extremes are those of its finite values"
+    ))
+}
+
+#[cfg(test)]
+mod tests {
+    use ttb_session::observe::{Begin, Moment, Observer, Timing};
+    use ttb_session::{Column, TimeAxis};
+
+    use super::*;
+
+    #[test]
+    fn a_column_that_is_not_finite_is_told_with_its_first_time() {
+        let columns = ["a", "b", "c"].map(|name| Column::parse(name, "m"));
+        let (mut peaks, axis) = (Peaks::default(), TimeAxis::new(0.5, 1.0));
+        peaks.start(&Begin { columns: &columns, axis: &axis }).expect("columns");
+        assert_eq!(not_finite(&peaks), None);
+        for (n, row) in [[1.0, 2.0, 3.0], [1.0, f64::NAN, 3.0], [1.0, 2.0, f64::INFINITY]].iter().enumerate() {
+            let moment =
+                Moment { n: n as u64, t: axis.time(n as u64), h: 0.5, row, info: None, timing: Timing::default() };
+            assert!(peaks.step(&moment).expect("a row").is_continue());
+        }
+        let told = not_finite(&peaks).expect("a warning");
+        assert!(told.starts_with("b (and 1 more) was NaN or infinite, first at t = 0.5 s"), "{told}");
+    }
+}
