@@ -12,11 +12,12 @@ const CONVENTIONS: &str = "<ul>
 <li>SI units. z and all displacements, velocities and forces along it point downwards; \
 a positive <code>force</code> presses the bridge down.</li>
 <li>An input set before <code>fmi2DoStep</code> is its value at the beginning of the step; with its first derivative set \
-(<code>fmi2SetRealInputDerivatives</code>, order 1) it runs along a straight line over the step, without it is held.</li>
+(<code>fmi2SetRealInputDerivatives</code>, order 1) it runs along a straight line over the step, without derivative it is held.</li>
+<li>A step begins where the last one has ended; <code>fmi2DoStep</code> at another time is refused.</li>
 <li>Outputs after <code>fmi2DoStep</code> are those at the end of the step; in initialization mode those of static equilibrium.</li>
 <li>Forces and motions are changes from the state under dead load.</li>
 <li>FMU states can be saved, restored and serialized; a step repeated after a restore gives the same bits.</li>
-<li>Any step size works; the one of the default experiment is prepared for and fastest.</li>
+<li>Any positive step size works; the step of the default experiment is prepared and is the fastest.</li>
 </ul>";
 
 /// The text of the page, HTML.
