@@ -80,9 +80,9 @@ const SECTIONS: [(&str, &[&str]); 6] = [
 const HEAD: &str = "\
 # Verification
 
-Every closed form and published case that the tests compute: expected, computed, error. The numbers come from the
-records that the tests keep in `verification/`; a test fails when it computes something else than its record says, and
-`report.rs` fails when this page does not say what the records say. Made by
+This page has every closed form and published case that the tests compute, with expected and computed values and the
+error. The numbers come from the records of the tests in `verification/`. A test fails if its values differ from its
+record, and `report.rs` fails if this page differs from the records. The page is made by
 
     TTB_BLESS=1 cargo test --release --workspace && TTB_BLESS=1 cargo test --release -p ttb-tests --test report
 
@@ -97,8 +97,8 @@ Results that have no table here, such as conservation, orders of convergence and
 const FOOT: &str = "
 ## Accuracy and step
 
-The product against itself with a fine step, the whole of every history, all outputs of a kind together. Slopes of two in
-the picture are the second order of Newmark's method.
+The program is compared with itself at a fine step, over the whole of every history, all outputs of a kind together. A
+slope of two in the picture is the second order of Newmark's method.
 
     ttb accuracy examples/r1.json --steps 4e-3,2e-3,1e-3,5e-4,2e-4 --reference 5e-5
 
