@@ -18,6 +18,7 @@
 use std::ops::Range;
 use std::sync::Arc;
 
+use ttb_contract::finite::not_finite;
 use ttb_dynamics::newmark::{Motion, Newmark};
 
 use crate::car::{AXLES, Car, DOFS, Matrix10, add_wheel_compliance, press, wheel};
@@ -211,7 +212,7 @@ impl TrainTrackSystem {
         matrices.newmark.finish_all(&old.track, &mut new.track);
         self.prepared.track.support_forces(&new.track, deck, &mut new.supports);
         new.deck.copy_from_slice(deck);
-        match new.supports.iter().position(|force| !force.is_finite()) {
+        match not_finite(&new.supports) {
             None => Ok(()),
             Some(i) => Err(format!("the force of support {} is {} at t = {t} s", i + 1, new.supports[i])),
         }
