@@ -5,9 +5,9 @@ use std::path::PathBuf;
 use clap::Args;
 
 pub(super) const HELP: &str = "\
-One line a finding: error or warning, the rule's name, what is wrong, where, what was seen.
-Every test runs in a process of its own, so that a crash or a hang is a finding.
-Exit code 0 without findings, 1 with any.";
+One line a finding: error, warning or remark, the rule's name, what is wrong, where, what was seen.
+Every test runs in a process of its own, so that a crash or a call that does not come back is a
+finding. Exit code 0 without findings or with remarks alone, otherwise 1.";
 
 /// Arguments of `ttb check`.
 #[derive(Debug, Args)]

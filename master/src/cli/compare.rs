@@ -7,9 +7,10 @@ use clap::{Args, ValueEnum};
 use super::seconds::positive;
 
 pub(super) const HELP: &str = "\
-Without --steps every method runs at its own step, as in the paper: the scenario's, and LCM at the longest whole part of it
-that is well below its limit of convergence; HSA at that step too. The output folder gets compare.csv, compare.json and
-figure-7 to figure-10 as SVG and PNG.
+Without --steps every method runs at its own step, as in the paper: at the scenario's step, and LCM
+at the longest whole part of it that is well below its limit of convergence; HSA at that step too.
+The output folder gets compare.csv, compare.json, histories.csv and figure-7 to figure-10 as SVG
+and PNG.
 
   ttb compare examples/r1.json
   ttb compare examples/cable-stayed-120k/scenario.json --budget scm=300

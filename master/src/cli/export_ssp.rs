@@ -5,9 +5,9 @@ use std::path::PathBuf;
 use clap::Args;
 
 pub(super) const HELP: &str = "\
-FMPy, ecos, libcosim and other importers of SSP 1.0 simulate the file, in one pass a step; `ttb run FILE.ssp` iterates
-and gives the results of the scenario. The settings of the iteration stand in the annotation org.ttb.coupling
-(docs/guide/ssp.md).";
+FMPy, ecos, libcosim and other importers of SSP 1.0 simulate the file, in one pass a step;
+`ttb run FILE.ssp` iterates and gives the results of the scenario. The settings of the iteration
+are in the annotation org.ttb.coupling (docs/guide/ssp.md).";
 
 /// Arguments of `ttb export-ssp`.
 #[derive(Debug, Args)]

@@ -43,13 +43,17 @@ First steps:
 
 Exit codes:
     0  ok
-    1  ttb check has findings
+    1  ttb check has found errors or warnings
     2  bad input: every problem is listed
     3  a step did not converge
     4  an FMU failed
     5  input or output failed
   130  interrupted by Ctrl-C; results so far are kept
   143  ended by SIGTERM, 129: by SIGHUP; the same";
+
+const SCHEMA_HELP: &str = "\
+Put it beside your scenarios and name it in them: \"$schema\": \"scenario.schema.json\". Editors
+then complete keys and check them.";
 
 /// The commands.
 #[derive(Debug, Subcommand)]
@@ -67,8 +71,10 @@ pub enum Command {
         /// The scenario file
         scenario: PathBuf,
     },
-    /// Show what engineers check first of a bridge: mass, reactions, what is loose, lowest frequencies
-    #[command(after_help = "Exit code 2 if something is loose or forces do not balance.")]
+    /// Show what engineers check first of a bridge: mass, reactions, mechanisms, lowest frequencies
+    #[command(
+        after_help = "Exit code 2 if there is a mechanism, forces do not balance, or rounding spoils the results."
+    )]
     InspectBridge {
         /// A scenario, or a bridge model file
         file: PathBuf,
@@ -87,14 +93,12 @@ pub enum Command {
     /// Make a bridge model of shells and beams, and a scenario that runs a train over it
     Generate(Generate),
     /// Print the JSON Schema of scenario files
-    #[command(
-        after_help = "Put it beside your scenarios and name it in them, \"$schema\": \"scenario.schema.json\": editors then complete and check."
-    )]
+    #[command(after_help = SCHEMA_HELP)]
     Schema {
-        /// That of bridge model files instead
+        /// Print the schema of bridge model files instead
         #[arg(long, conflicts_with = "summary")]
         bridge: bool,
-        /// That of summary.json, which a run leaves, instead
+        /// Print the schema of summary.json, which a run writes, instead
         #[arg(long)]
         summary: bool,
     },

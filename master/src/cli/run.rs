@@ -6,22 +6,22 @@ use clap::{Args, ValueEnum};
 
 pub(super) const HELP: &str = "\
 The output folder gets
-  results.csv      time, then every output by its FMI name, SI units (opens in FMPy, pandas, spreadsheets)
-  iterations.csv   one row a step: iterations, residual, contraction, roll-backs, seconds
-  summary.json     peaks with place and time, iterations, timing, versions, every file read with its hash
-  results.svg      deck, cars and wheels over time; the same as results.png
-  scenario.resolved.json   the scenario with all defaults and the steps that were taken; maps likewise
-  *.fmu            the two FMUs that were run
-Another run into the same folder is refused while this one lasts. What an earlier one left is replaced when this one begins
-its first step; a run that is refused leaves it as it is.
+  results.csv             time, then every output by its FMI name, SI units
+  iterations.csv          one row a step: iterations, residual, contraction, roll-backs, seconds
+  summary.json            peaks with place and time, iterations, timing, every file read with its hash
+  results.svg, .png       deck, cars and wheels over time
+  scenario.resolved.json  the scenario with all defaults and the steps that were taken; maps likewise
+  *.fmu                   the two FMUs that were run
+While a run lasts, another run into its folder is refused. When a run begins its first step, it
+removes what an earlier run left in the folder; a run that is refused leaves the folder as it is.
 
-A bridge of somebody else's (docs/guide/bridges.md):
-  ttb check THEIRS.fmu                         does it keep what FMI promises?
-  ttb inspect --map THEIRS.fmu > map.json      a map of its variables onto ours: names, signs, units, places
+A bridge FMU of your own (docs/guide/bridges.md):
+  ttb check THEIRS.fmu                     does it do what its description and FMI promise?
+  ttb inspect --map THEIRS.fmu > map.json  a map of its variables onto ours
   ttb run scenario.json --bridge THEIRS.fmu --map map.json
-Trial steps before the run find wrong signs and units, and states that do not come back.
+Trial steps before the run find wrong signs and units, and states that are not restored.
 
-A foreign FMU that crashes takes the program and its results along, unless it is isolated:
+An FMU that crashes ends the program, and results are lost, unless it is isolated:
   ttb run scenario.json --bridge THEIRS.fmu --isolate --timeout 10";
 
 /// Arguments of `ttb run`.
