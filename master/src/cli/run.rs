@@ -11,7 +11,7 @@ The output folder gets
   summary.json            peaks with place and time, iterations, timing, every file read with its hash
   results.svg, .png       deck, cars and wheels over time
   scenario.resolved.json  the scenario with all defaults and the steps that were taken; maps likewise
-  *.fmu                   the two FMUs that were run
+  *.fmu                   the FMUs that were built for the run
 While a run lasts, another run into its folder is refused. When a run begins its first step, it
 removes what an earlier run left in the folder; a run that is refused leaves the folder as it is.
 
