@@ -9,7 +9,7 @@ use ttb_train_track::TrainTrack;
 
 /// Steps that are timed, each with a first trial and a repeated one; best of some rounds, other work shares the machine.
 const STEPS: usize = 100;
-const ROUNDS: usize = 12;
+const ROUNDS: usize = 11;
 
 fn main() {
     let folder = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../examples");
