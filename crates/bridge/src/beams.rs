@@ -6,6 +6,7 @@
 use ttb_contract::ModelError;
 use ttb_dynamics::beam::Beam;
 use ttb_dynamics::frame::FrameElement;
+use ttb_scenario::limits::MOST_ELEMENTS_PER_SPAN;
 use ttb_scenario::types::Span;
 
 use crate::mesh::{Element, Mesh, Node};
@@ -61,6 +62,10 @@ fn check(number: usize, span: &Span) -> Result<(), ModelError> {
     }
     if span.elements == 0 {
         return Err(ModelError(format!("bridge: span {number} has no elements; it needs at least one")));
+    }
+    if span.elements > MOST_ELEMENTS_PER_SPAN {
+        let (most, has) = (MOST_ELEMENTS_PER_SPAN, span.elements);
+        return Err(ModelError(format!("bridge: span {number} has {has} elements; at most {most} are possible")));
     }
     Ok(())
 }

@@ -6,6 +6,7 @@
 use ttb_contract::ModelError;
 use ttb_dynamics::beam::Beam;
 use ttb_dynamics::frame::{FrameElement, ernst_modulus};
+use ttb_scenario::limits::MOST_ELEMENTS_PER_SPAN;
 use ttb_scenario::types::{Fixity, Frame, Member, MemberKind, Section};
 
 use crate::mesh::{Element, Mesh, Node};
@@ -69,6 +70,11 @@ fn divide(
             }
             if member.elements == 0 {
                 return Err(wrong(member, "it needs at least one element"));
+            }
+            if member.elements > MOST_ELEMENTS_PER_SPAN {
+                let rule =
+                    format!("it has {} elements; at most {MOST_ELEMENTS_PER_SPAN} are possible", member.elements);
+                return Err(wrong(member, &rule));
             }
             let beam = Beam {
                 bending_stiffness: section.modulus * section.inertia,

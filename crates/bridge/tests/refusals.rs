@@ -36,6 +36,7 @@ fn spans() {
     refused(with(|s| s.mass = f64::NAN), &["mass", "span 2", "NaN"]);
     refused(with(|s| s.shear_stiffness = Some(0.0)), &["shear_stiffness", "span 2"]);
     refused(with(|s| s.elements = 0), &["span 2", "elements"]);
+    refused(with(|s| s.elements = 1 << 63), &["span 2", "9223372036854775808 elements"]);
     let none = StructureSpec::Beams { spans: Vec::new(), continuous: false };
     refused(bridge(none, 20.0, 4, 1e-3), &["no spans"]);
 }
@@ -70,6 +71,7 @@ fn frames() {
     refused(with(&|f| f.sections[0].mass = -1.0), &["mass", "girder"]);
     refused(with(&|f| f.sections[0].inertia = 0.0), &["member a–b", "no inertia"]);
     refused(with(&|f| f.members[0].elements = 0), &["member a–b", "element"]);
+    refused(with(&|f| f.members[0].elements = 1 << 63), &["member a–b", "9223372036854775808 elements"]);
     refused(with(&|f| f.members[0].kind = Cable), &["member a–b", "tension"]);
     refused(with(&|f| f.members[0].deck = false), &["no member", "deck"]);
     refused(with(&|f| f.nodes.push(tower.clone())), &["node t", "no member"]);

@@ -22,6 +22,9 @@ pub const MOST_BAYS: usize = 1_000_000;
 /// Rail elements of a bay at most.
 pub const MOST_ELEMENTS_PER_BAY: usize = 20;
 
+/// Beam elements of a span, or of a member of a frame, at most: rounding shows long before.
+pub const MOST_ELEMENTS_PER_SPAN: usize = 1_000_000;
+
 /// A limit that is not kept.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Exceeded {

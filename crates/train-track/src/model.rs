@@ -45,7 +45,7 @@ impl TrainTrack {
             let (bays, elements) = (spec.bays, spec.elements_per_bay);
             return Err(error(format!("a track of {bays} bays of {elements} rail elements cannot be built")));
         }
-        if spec.on_bridge.last().is_some_and(|last| *last > spec.bays) {
+        if spec.on_bridge.iter().any(|support| *support > spec.bays) {
             return Err(error("a support on the bridge lies beyond the track"));
         }
         Ok(Self { interface: interface(&spec), spec, shared: None, built: None })

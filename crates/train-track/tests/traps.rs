@@ -47,6 +47,16 @@ fn local_compliance_makes_up_for_few_elements() {
 }
 
 #[test]
+fn a_support_beyond_the_track_is_refused_wherever_it_stands_in_the_list() {
+    for place in [0, 5, 29] {
+        let mut spec = spec();
+        spec.on_bridge[place] = 1 << 53;
+        let error = ttb_train_track::TrainTrack::new(spec).err().expect("a refusal");
+        assert!(error.0.contains("beyond the track"), "{error}");
+    }
+}
+
+#[test]
 fn pre_rolled_cars_run_as_after_a_long_approach() {
     // Both roll 520 m over the same rail before the comparison begins 20 m further on.
     let track = |from: f64, front: f64, pre_roll: f64| {
