@@ -43,6 +43,9 @@ enum Keeper {
     Started(ChildStdin),
 }
 
+/// Environment variable that tells the keeper the number of the process it keeps house for.
+const PARENT: &str = "TTB_KEEPER_OF";
+
 static REGISTER: Mutex<Register> = Mutex::new(Register { folders: Vec::new(), keeper: Keeper::None });
 
 /// A list of paths is never left half-changed by a panic.
@@ -85,6 +88,7 @@ impl Register {
     fn announce(&mut self, path: &Path) {
         if let Keeper::Named(program, arguments) = &self.keeper {
             let mut command = Command::new(program);
+            command.env(PARENT, std::process::id().to_string());
             command.args(arguments).stdin(Stdio::piped()).stdout(Stdio::null()).stderr(Stdio::null());
             platform::in_own_group(&mut command);
             let input = command.spawn().ok().and_then(|mut child| child.stdin.take());
@@ -119,7 +123,8 @@ pub fn keep() -> io::Result<()> {
     platform::ignore_requests_to_end();
     // The directory this was started in may be removed meanwhile.
     let _ = std::env::set_current_dir("/");
-    let folders = platform::read_until_parent_is_gone()?;
+    let parent = std::env::var(PARENT).ok().and_then(|number| number.parse().ok());
+    let folders = platform::read_until_parent_is_gone(parent)?;
     // An isolated FMU's process, which ends at the same moment, may still write: once more then.
     for folder in folders.split(|byte| *byte == 0).filter(|folder| !folder.is_empty()) {
         let folder = platform::path(folder);

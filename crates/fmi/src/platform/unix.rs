@@ -71,7 +71,7 @@ mod import {
 
     /// All that the parent process writes into standard input until it is gone.
     #[cfg(not(target_os = "linux"))]
-    pub(crate) fn read_until_parent_is_gone() -> std::io::Result<Vec<u8>> {
+    pub(crate) fn read_until_parent_is_gone(_parent: Option<u32>) -> std::io::Result<Vec<u8>> {
         let mut read = Vec::new();
         std::io::Read::read_to_end(&mut std::io::stdin(), &mut read).map(|_| read)
     }

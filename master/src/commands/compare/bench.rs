@@ -36,11 +36,13 @@ impl Bench<'_> {
         let plan = Plan { axis, wanted: &wanted, clock: &cpu };
         let ended = drive(system, &plan, &mut [watch]);
         bar.finish_and_clear();
-        match ended.map_err(Error::from) {
-            Err(error @ (Error::NotConverged(_) | Error::Fmu(_))) => ran.failure = Some(error.to_string()),
-            other => drop(other?),
+        match ended {
+            Ok(_) => Ok(()),
+            // Which method failed stands beside it in the table.
+            Err(RunError::Subsystem(failure)) => Ok(ran.failure = Some(failure.message)),
+            Err(RunError::Iteration(error)) => Ok(ran.failure = Some(error.to_string())),
+            Err(other) => Err(other.into()),
         }
-        Ok(())
     }
 }
 
