@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from driving import H, drive
+from fmpy.fmi1 import FMICallException
 from fmu import FMU2Instance
 
 
@@ -16,9 +17,18 @@ def test_a_crumb_of_a_step_succeeds_and_changes_nothing(fmu):
     with FMU2Instance(fmu) as instance:
         drive(instance.initialize(), 0, 20)
         before = outputs(instance)
-        for t, crumb in [(20 * H, 1.4e-17), (20 * H, 0.0), (1e3, 1e-10)]:
-            instance.doStep(t, crumb)
+        for crumb in [1.4e-17, 0.0, 1e-13]:
+            instance.doStep(20 * H, crumb)
             assert np.array_equal(outputs(instance), before)
+
+
+def test_a_step_that_does_not_begin_where_the_last_one_ended_is_refused(fmu):
+    """However small it is; with both times in the message."""
+    for t, size in [(1e3, 1e-10), (21 * H, H), (0.0, H)]:
+        with FMU2Instance(fmu) as instance:
+            drive(instance.initialize(), 0, 20)
+            with pytest.raises(FMICallException):
+                instance.doStep(t, size)
 
 
 @pytest.mark.parametrize("size", [0.0009999999999999998, 0.0010000000000000002, 0.001 * (1 + 1e-12)])

@@ -43,13 +43,14 @@ pub fn in_order(assigned: &mut Assigned, train_track: &ModelDescription, axle_lo
     let others: Vec<usize> = (0..motions.len()).filter(|at| !places.contains(at)).collect();
     let ports = Ports::new(list, others.len());
     places.extend(others);
-    for (ends, order) in [
-        (&mut assigned.forces_out, &order),
-        (&mut assigned.forces_in, &order),
-        (&mut assigned.motions_in, &places),
-        (&mut assigned.motions_out, &places),
-    ] {
+    for (ends, order) in [(&mut assigned.forces_out, &order), (&mut assigned.motions_in, &places)] {
         *ends = permuted(ends, order);
+    }
+    // A bridge with places of its own, or without velocities, has other variables, which its map has put in order.
+    if assigned.stations.is_none() && assigned.velocities {
+        for (ends, order) in [(&mut assigned.forces_in, &order), (&mut assigned.motions_out, &places)] {
+            *ends = permuted(ends, order);
+        }
     }
     ports
 }
