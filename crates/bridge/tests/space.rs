@@ -1,92 +1,14 @@
 //! Finite-element models in space against closed forms, the plane models and themselves.
 
 mod common;
+mod girders;
 
 use common::{beams, near, span};
+use girders::*;
 use serde_json::{Value, json};
 use ttb_bridge::Bridge;
-use ttb_bridge::assembled::Assembled;
 use ttb_bridge::space::{Statics, assemble, self_check};
-use ttb_scenario::types::{Direction, Model, Point};
-use ttb_sparse::Pencil;
-use ttb_sparse::modes::lowest;
-use ttb_sparse::{Factor, FactorError};
-
-const L: f64 = 20.0;
-/// Of the beams below: E I₂, G J, ρ A.
-const EI: f64 = 3e10 * 0.25;
-const GJ: f64 = 3e10 / 2.4 * 0.1;
-const MASS: f64 = 2500.0 * 1.2;
-
-/// A model of one concrete, a line section `girder`, a shell section `slab`, and what is given.
-fn model(parts: &[Value]) -> Model {
-    let mut whole = json!({
-        "materials": [{ "name": "concrete", "modulus": 3e10, "poisson": 0.2, "density": 2500 }],
-        "line_sections": [{
-            "name": "girder", "material": "concrete", "area": 1.2, "inertia_2": 0.25, "inertia_3": 0.4, "torsion": 0.1
-        }],
-        "shell_sections": [{ "name": "slab", "material": "concrete", "thickness": 0.4 }],
-        "deck": { "length": L, "on": { "beams": ["girder"] } }
-    });
-    for (key, value) in parts.iter().filter_map(Value::as_object).flatten() {
-        whole[key] = value.clone();
-    }
-    serde_json::from_value(whole).unwrap()
-}
-
-/// Nodes 0 to n along x.
-fn line(n: usize) -> Vec<Value> {
-    (0..=n).map(|i| json!([i, L * i as f64 / n as f64, 0, 0])).collect()
-}
-
-fn chain(n: usize) -> Vec<[usize; 2]> {
-    (0..n).map(|i| [i, i + 1]).collect()
-}
-
-/// A simply supported beam that is held against twisting at its ends, with the track at `y`.
-fn girder(n: usize, y: f64) -> Model {
-    model(&[json!({
-        "nodes": line(n),
-        "beams": [{ "section": "girder", "orientation": [0, 1, 0], "elements": chain(n) }],
-        "bearings": [{ "nodes": [0, n], "fixed": ["y", "z", "rx"] }, { "nodes": [0], "fixed": ["x"] }],
-        "deck": { "length": L, "y": y, "on": { "beams": ["girder"] } }
-    })])
-}
-
-struct Solved {
-    assembled: Assembled,
-    pencil: Pencil,
-    factor: Factor,
-}
-
-fn solved(model: &Model, supports: &[f64], points: &[Point]) -> Solved {
-    let mut assembled = assemble(model, supports, points).unwrap_or_else(|error| panic!("{error}"));
-    let pencil = std::mem::take(&mut assembled.equations).finish().unwrap();
-    let factor = pencil.factor(1.0, 0.0, 0.0).unwrap_or_else(|error| panic!("{error}"));
-    Solved { assembled, pencil, factor }
-}
-
-impl Solved {
-    fn solve(&self, load: &mut [f64]) {
-        self.factor.solve_in_place(load, &mut vec![0.0; load.len()]);
-    }
-
-    /// Displacement under support i for a unit force on support j.
-    fn flexibility(&self, i: usize, j: usize) -> f64 {
-        let mut u = vec![0.0; self.pencil.ndof()];
-        self.assembled.supports[j].iter().for_each(|(dof, weight)| u[*dof as usize] += weight);
-        self.solve(&mut u);
-        self.assembled.supports[i].iter().map(|(dof, weight)| weight * u[*dof as usize]).sum()
-    }
-
-    fn frequencies(&self, count: usize) -> Vec<f64> {
-        lowest(&self.pencil, &self.factor, count).unwrap().frequencies().collect()
-    }
-}
-
-fn at_node(name: &str, node: usize, direction: Direction) -> Point {
-    Point { name: name.into(), x: None, node: Some(node.to_string()), direction }
-}
+use ttb_scenario::types::{Direction, Model};
 
 #[test]
 fn a_beam_held_to_its_plane_is_the_plane_beam() {
@@ -275,25 +197,6 @@ fn a_hinge_by_release_bends_no_more() {
     near("propped", hinged, 7.0 * L.powi(3) / (768.0 * EI), 1e-9);
 }
 
-/// A slab of shells, simply supported on its end lines, with a girder under its middle.
-fn slab(nx: usize, ny: usize) -> Value {
-    let number = |i: usize, j: usize| i * (ny + 1) + j;
-    let nodes = (0..=nx).flat_map(|i| {
-        (0..=ny).map(move |j| json!([number(i, j), L * i as f64 / nx as f64, 6.0 * j as f64 / ny as f64 - 3.0, 0]))
-    });
-    let bays = (0..nx)
-        .flat_map(|i| (0..ny).map(move |j| [number(i, j), number(i + 1, j), number(i + 1, j + 1), number(i, j + 1)]));
-    let ends = |i: usize| (0..=ny).map(|j| number(i, j)).collect::<Vec<_>>();
-    json!({
-        "nodes": nodes.collect::<Vec<_>>(),
-        "shells": [{ "section": "slab", "elements": bays.collect::<Vec<_>>() }],
-        "beams": [{ "section": "girder", "orientation": [0, 1, 0], "offsets": [[0, 0, 0.8], [0, 0, 0.8]],
-            "elements": (0..nx).map(|i| [number(i, ny / 2), number(i + 1, ny / 2)]).collect::<Vec<_>>() }],
-        "bearings": [{ "nodes": ends(0), "fixed": ["x", "y", "z"] }, { "nodes": ends(nx), "fixed": ["z"] }],
-        "deck": { "length": L, "y": 0.8, "on": { "shells": ["slab"] } }
-    })
-}
-
 #[test]
 fn the_ground_carries_the_weight_and_nothing_else() {
     let mut value = slab(10, 6);
@@ -322,113 +225,4 @@ fn the_ground_carries_the_weight_and_nothing_else() {
     let one = self::solved(&alone, &[], &[]);
     let check = self_check(&alone, Statics::Solved(&mut |x| one.solve(x))).unwrap();
     near("half", check.reactions.unwrap().groups[0].force[2], MASS * L * 9.81, 1e-9);
-}
-
-#[test]
-fn what_is_loose_is_named() {
-    // two parts, one held by nothing
-    let mut value = slab(4, 2);
-    value["nodes"].as_array_mut().unwrap().extend([json!([70, 0, 9, 0]), json!([71, 5, 9, 0])]);
-    value["beams"]
-        .as_array_mut()
-        .unwrap()
-        .push(json!({ "section": "girder", "orientation": [0, 1, 0], "elements": [[70, 71]] }));
-    let check = self_check(&model(&[value]), Statics::Unknown).unwrap();
-    assert_eq!(check.loose_parts.iter().map(|part| (part.node, part.nodes)).collect::<Vec<_>>(), [(70, 2)]);
-    assert!(check.to_string().contains("not held: the part with node 70 (2 nodes)"), "{check}");
-
-    // a plane truss in space
-    let truss = model(&[json!({
-        "nodes": [[1, 0, 0, 0], [2, 10, 0, 0], [3, 20, 0, 0], [4, 10, 0, 5]],
-        "trusses": [{ "section": "girder", "elements": [[1, 2], [2, 3], [1, 4], [4, 3], [2, 4]] }],
-        "bearings": [{ "nodes": [1, 3], "fixed": ["x", "y", "z"] }],
-        "deck": { "length": L, "on": { "nodes": [1, 2, 3] } }
-    })]);
-    let found = assemble(&truss, &[10.0], &[]).err().unwrap().to_string();
-    let expected =
-        "bridge: mechanism: nothing resists the displacement along y of node 2, the displacement along y of node 4";
-    assert_eq!(found, expected);
-    assert_eq!(self_check(&truss, Statics::Unknown).unwrap().loose.len(), 2);
-
-    // a girder that rolls about its own axis
-    let mut rolling = girder(4, 0.0);
-    rolling.bearings[0].fixed.retain(|freedom| freedom.name() != "rx");
-    let mut assembled = assemble(&rolling, &[], &[]).unwrap();
-    let pencil = std::mem::take(&mut assembled.equations).finish().unwrap();
-    let Err(FactorError::NotPositive { dof }) = pencil.factor(1.0, 0.0, 0.0) else { panic!("a mechanism") };
-    let name = (assembled.names)(dof);
-    assert!(name.starts_with("rotation about x of node "), "{name}");
-    let check = self_check(&rolling, Statics::Mechanism(dof)).unwrap();
-    assert!(check.mechanism == Some(name) && !check.is_sound());
-}
-
-#[test]
-fn stations_off_the_deck_are_told() {
-    let refused = |changes: Value, x: f64, words: &[&str]| {
-        let mut value = slab(4, 2);
-        for (key, change) in changes.as_object().unwrap() {
-            value["deck"][key] = change.clone();
-        }
-        let found = assemble(&model(&[value]), &[1.0, x], &[]).err().unwrap().to_string();
-        words.iter().for_each(|word| assert!(found.contains(word), "{found}: {word}"));
-    };
-    refused(json!({}), 21.5, &["support[2] at x = 21.5 m, y = 0.8 m", "no shell", "from x = 0 m to 20 m"]);
-    refused(json!({ "y": 3.5 }), 7.0, &["support[1]", "y = 3.5 m", "from y = -3 m to 3 m there"]);
-    refused(json!({ "on": { "beams": ["girder"] } }), 20.1, &["support[2]", "no beam", "from x = 0 m to 20 m"]);
-    refused(json!({ "on": { "nodes": [4, 7, 10] } }), 18.0, &["support[1]", "no node"]);
-    refused(
-        json!({ "on": { "nodes": [3, 6, 9] } }),
-        18.0,
-        &["support[1] at x = 1 m", "no node", "from x = 2.5 m to 17.5 m"],
-    );
-    let points = [at_node("tip", 4711, Direction::X)];
-    let found = assemble(&model(&[slab(4, 2)]), &[1.0], &points).err().unwrap().to_string();
-    assert_eq!(found, "bridge: point tip: there is no node numbered 4711");
-    // a node of trusses has no rotation to carry an eccentric track
-    let truss = model(&[json!({
-        "nodes": [[1, 0, 0, 0], [2, 10, 0, 0], [3, 20, 0, 0], [4, 10, 3, 5], [5, 10, -3, 5]],
-        "trusses": [{ "section": "girder", "elements": [[1, 2], [2, 3], [1, 4], [4, 3], [2, 4], [1, 5], [5, 3], [2, 5], [4, 5]] }],
-        "bearings": [{ "nodes": [1, 3], "fixed": ["x", "y", "z"] }],
-        "deck": { "length": L, "y": 1, "on": { "nodes": [2] } }
-    })]);
-    let found = assemble(&truss, &[10.0], &[]).err().unwrap().to_string();
-    assert_eq!(found, "bridge: support[1] at x = 10 m: no element resists the rotation about x of node 2");
-}
-
-#[test]
-fn shells_and_elements_that_cannot_be_are_named() {
-    let mut value = slab(4, 2);
-    value["shells"][0]["elements"][3] = json!([4, 7, 5, 8]);
-    let found = assemble(&model(&[value]), &[], &[]).err().unwrap().to_string();
-    assert!(found.starts_with("bridge: shells[0].elements[3] (nodes [4, 7, 5, 8]): it has no area"), "{found}");
-}
-
-#[test]
-fn the_box_girder_among_the_examples_is_sound() {
-    let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples/box-girder.json");
-    let spec = ttb_scenario::load(&path).unwrap_or_else(|problems| panic!("{problems}")).bridge;
-    let ttb_scenario::spec::StructureSpec::FiniteElements(model) = &spec.structure else { panic!("finite elements") };
-    let solved = solved(model, &spec.supports, &spec.points);
-    let check = self_check(model, Statics::Solved(&mut |x| solved.solve(x))).unwrap();
-    assert!(check.is_sound(), "{check}");
-    // deck and its dead load, webs, bottom, diaphragms, parapets
-    let mass = 2500.0 * (0.3 * 300.0 + 0.4 * 120.0 + 0.25 * 150.0 + 0.8 * 20.0 + 0.2 * 60.0) + 600.0 * 300.0;
-    near("mass", check.mass, mass, 1e-9);
-    near("centre", check.centre[0], 15.0, 1e-9);
-    near("a bearing", check.reactions.unwrap().groups[0].force[2], 0.25 * mass * 9.81, 1e-6);
-    let first = solved.frequencies(1)[0];
-    assert!((3.0..6.0).contains(&first), "{first}");
-    // the loaded edge goes down more than the other
-    let mut u = vec![0.0; solved.pencil.ndof()];
-    solved.assembled.supports.iter().flatten().for_each(|(dof, weight)| u[*dof as usize] += 1e4 * weight);
-    solved.solve(&mut u);
-    let value =
-        |i: usize| solved.assembled.monitors[i].iter().map(|(dof, weight)| weight * u[*dof as usize]).sum::<f64>();
-    assert!(
-        value(2) > 1.2 * value(1) && value(1) > 0.0 && value(0) > value(1),
-        "{} {} {}",
-        value(1),
-        value(0),
-        value(2)
-    );
 }
