@@ -15,6 +15,7 @@ use std::sync::Arc;
 use ttb_contract::ModelError;
 use ttb_dynamics::newmark::Motion;
 use ttb_dynamics::pool::Pool;
+use ttb_scenario::limits::MOST_SUBSTEPS;
 
 use crate::law::Law;
 use crate::prepared::Prepared;
@@ -23,8 +24,6 @@ use crate::steps::Steps;
 use crate::structure::Structure;
 use crate::system::{Base, Step, Work};
 
-/// More sub-steps than this in one macro step are a mistake.
-const MOST_SUBSTEPS: usize = 1_000_000;
 /// Bases kept: that of the step being repeated, and that of the state of rest where directional derivatives start.
 const KEPT: usize = 2;
 

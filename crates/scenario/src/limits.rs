@@ -9,7 +9,9 @@ use std::fmt;
 pub const MOST_STEPS: f64 = 1e12;
 /// Shortest and longest step of time, s: a shorter one loses the motion in rounding, a longer one resolves none.
 pub const STEP: [f64; 2] = [1e-9, 1e3];
-/// Parts that train and track may divide a macro step into.
+/// Sub-steps that a scenario may give, or that are chosen for it.
+pub const MOST_CHOSEN_SUBSTEPS: usize = 1000;
+/// Parts that a subsystem may divide a macro step into.
 pub const MOST_SUBSTEPS: usize = 1_000_000;
 /// Pre-roll at most, m.
 pub const LONGEST_PRE_ROLL: f64 = 1e4;

@@ -2,6 +2,7 @@
 
 use std::f64::consts::TAU;
 
+use crate::limits::MOST_CHOSEN_SUBSTEPS;
 use crate::spec::{Profile, TrainTrackSpec};
 use crate::types::{Car, Support};
 
@@ -13,8 +14,6 @@ const A_RESONANCE: f64 = 8.0;
 const SHORTEST: f64 = 1e-5;
 /// Longest macro step by frequencies alone, s.
 pub const LONGEST: f64 = 2e-3;
-/// Sub-steps at most.
-const MOST_SUBSTEPS: f64 = 1000.0;
 
 /// Frequencies in Hz.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -89,7 +88,7 @@ impl Excited {
     pub fn steps(&self, substeps: Option<usize>) -> Steps {
         let resolved = 1.0 / (A_PERIOD * self.on_the_bridge());
         let step = round_down(resolved.clamp(SHORTEST, LONGEST));
-        let parts = (step * A_RESONANCE * self.wheel_rail).ceil().clamp(1.0, MOST_SUBSTEPS);
+        let parts = (step * A_RESONANCE * self.wheel_rail).ceil().clamp(1.0, MOST_CHOSEN_SUBSTEPS as f64);
         Steps { step, substeps: substeps.unwrap_or((parts as usize).max(1)) }
     }
 }
