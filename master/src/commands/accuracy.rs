@@ -96,10 +96,10 @@ fn compare(truth: &Table, coarse: &Table, parts: usize) -> Vec<(String, [f64; 2]
 
 /// History and peak error in percent, a column a step.
 fn markdown(checked: &Checked, steps: &[f64], fine: f64, kinds: &[Kind]) -> String {
+    let title = if checked.scenario.title.is_empty() { "The scenario" } else { &checked.scenario.title };
     let mut text = format!(
-        "{}, against steps of {} ms. History: greatest difference at any time; peak: difference of the greatest values; \
+        "{title}, against steps of {} ms. History: greatest difference at any time; peak: difference of the greatest values; \
          both in percent of the greatest value of the kind.\n\n| quantity |",
-        checked.scenario.title,
         milliseconds(fine)
     );
     for h in steps {
@@ -129,7 +129,7 @@ fn csv(steps: &[f64], kinds: &[Kind]) -> String {
 
 /// A step for people, in ms without rounding noise.
 fn milliseconds(h: f64) -> f64 {
-    (1e9 * h).round() * 1e-6
+    (1e9 * h).round() / 1e6
 }
 
 /// Two significant digits of a percentage.

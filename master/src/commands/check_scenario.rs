@@ -13,6 +13,7 @@ pub fn check(scenario: &Path) -> Result<(), Error> {
     remarks.iter().for_each(|remark| note!("ttb: warning: {remark}"));
     let supports = checked.bridge.supports.len();
     let cars = checked.train_track.cars.len();
-    say!("{}: no problems; {cars} cars, {supports} supports on the bridge", scenario.display());
+    let cars = if cars == 1 { "1 car".to_string() } else { format!("{cars} cars") };
+    say!("{}: no problems; {cars}, {supports} supports on the bridge", scenario.display());
     Ok(())
 }
