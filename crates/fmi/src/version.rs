@@ -8,6 +8,9 @@ use std::path::Path;
 use std::sync::Arc;
 use std::time::Duration;
 
+/// Loads the library of an FMU unpacked in a folder, by its model identifier.
+pub type Load = fn(&Path, &str) -> Result<Arc<dyn Library>, LibraryError>;
+
 /// A version of FMI, as [`crate::Fmu`] and [`crate::isolate::host()`] need it.
 pub struct Version {
     /// Beginning of the version's names, `fmi2`.
@@ -15,7 +18,7 @@ pub struct Version {
     /// Reads a modelDescription.xml.
     pub read: fn(&[u8]) -> Result<ModelDescription, DescriptionError>,
     /// Loads the library of an FMU unpacked in a folder, by its model identifier.
-    pub load: fn(&Path, &str) -> Result<Arc<dyn Library>, LibraryError>,
+    pub load: Load,
     /// Name of a function in the standard.
     pub symbol: fn(Call) -> &'static str,
 }

@@ -1,4 +1,4 @@
-//! A reference method as something that [`ttb_session::drive`] steps: its monitored points, car bodies and contact forces are
+//! A reference method as something that [`ttb_session::drive()`] steps: its monitored points, car bodies and contact forces are
 //! columns as those of the product.
 
 use ttb_coupling::{Outcome, StepInfo};

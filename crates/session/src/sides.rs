@@ -34,7 +34,7 @@ impl<T: Model, B: Model> Sides<T, B> {
     /// Takes all steps of the case, without trial steps before.
     ///
     /// # Errors
-    /// As [`drive`].
+    /// As [`drive()`].
     pub fn run(&mut self, plan: &Plan, observers: &mut [&mut dyn Observer]) -> Result<Ended, RunError> {
         let mut coupled = Coupled::new(&mut self.train_track, &mut self.bridge, &mut self.coupling);
         drive(&mut coupled, plan, observers)

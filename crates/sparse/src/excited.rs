@@ -4,7 +4,7 @@
 //! first block V₀ ∝ K⁻¹ Bᵀ W           W: random mixtures of the loads B
 //! ```
 //!
-//! Because the process ([`crate::lanczos`], in blocks) starts from the loads, modes that they cannot excite (those swaying
+//! Because the process (`lanczos.rs`, in blocks) starts from the loads, modes that they cannot excite (those swaying
 //! sideways under a track in the middle, say) never appear.
 
 use faer::{Mat, Side};

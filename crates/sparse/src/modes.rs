@@ -1,6 +1,6 @@
 //! Lowest natural modes, K φ = ω² M φ, none missing.
 //!
-//! b start vectors run in a queue ([`crate::lanczos`], one vector at a time), so that modes that come up to b times, as on
+//! b start vectors run in a queue (`lanczos.rs`, one vector at a time), so that modes that come up to b times, as on
 //! a row of equal spans, are all met. Converged values are accepted only when the count of eigenvalues below the last one,
 //! from the inertia of K − σM, agrees; otherwise fresh start vectors join. Everything is deterministic.
 

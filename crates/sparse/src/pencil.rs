@@ -87,7 +87,7 @@ impl Pencil {
         let entries = merged(moved.collect());
         Product(Symmetric::new(self.ndof(), entries.into_iter()))
     }
-    /// The order of elimination, once found, for [`Layout::order`]; `None` where a small model makes its own.
+    /// The order of elimination, once found, for `Layout::order`; `None` where a small model makes its own.
     pub fn order(&self) -> Option<&[u32]> {
         self.symbolic.order()
     }

@@ -36,13 +36,14 @@ impl Bench<'_> {
         let plan = Plan { axis, wanted: &wanted, clock: &cpu };
         let ended = drive(system, &plan, &mut [watch]);
         bar.finish_and_clear();
-        match ended {
-            Ok(_) => Ok(()),
+        ran.failure = match ended {
+            Ok(_) => None,
             // Which method failed stands beside it in the table.
-            Err(RunError::Subsystem(failure)) => Ok(ran.failure = Some(failure.message)),
-            Err(RunError::Iteration(error)) => Ok(ran.failure = Some(error.to_string())),
-            Err(other) => Err(other.into()),
-        }
+            Err(RunError::Subsystem(failure)) => Some(failure.message),
+            Err(RunError::Iteration(error)) => Some(error.to_string()),
+            Err(other) => return Err(other.into()),
+        };
+        Ok(())
     }
 }
 
