@@ -1,12 +1,14 @@
 //! What a run needs to know beside its two FMUs, whether it comes from a scenario or from a system structure.
 
+use sha2::{Digest, Sha256};
 use ttb_scenario::Checked;
 use ttb_scenario::spec::Profile;
 use ttb_session::Case;
 
 use super::choice::Choice;
-use super::provenance::Provenance;
+use super::provenance::{Options, Provenance};
 use super::scene::Scene;
+use crate::files::hexadecimal;
 
 /// A run to be done.
 pub struct Job {
@@ -55,5 +57,27 @@ impl Job {
             scene: Scene::new(checked),
             provenance,
         }
+    }
+
+    /// One hash over all that decides the results.
+    ///
+    /// ```text
+    /// run_sha256 = SHA-256 of version, resolved scenario (or system structure), output settings, steps and why they are
+    ///              these, every file read by what it was read as and its SHA-256, and the options that may change a result
+    /// ```
+    ///
+    /// Not in it: paths, the title, `--isolate` and `--timeout` (an FMU gives the same bits in a process of its own),
+    /// `--quiet` and `--output`.
+    pub fn hash(&self) -> String {
+        let Provenance { inputs, options, .. } = &self.provenance;
+        // The scenario counts by what it means, which the origin's hash tells, not by how it is written.
+        let inputs = inputs.iter().filter(|input| input.role != "scenario");
+        let inputs: Vec<[&str; 2]> = inputs.map(|input| [input.role.as_str(), input.sha256.as_str()]).collect();
+        let Options { preload, probe, .. } = options;
+        let run =
+            (self.case.step, self.case.substeps, self.case.end, &self.choice, self.case.every, self.case.supports);
+        let all = (env!("CARGO_PKG_VERSION"), self.origin.hash(), run, inputs, preload, probe);
+        // Numbers, texts and lists: there is nothing that cannot be written as JSON.
+        hexadecimal(&Sha256::digest(serde_json::to_vec(&all).unwrap_or_default()))
     }
 }

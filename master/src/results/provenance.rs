@@ -1,25 +1,15 @@
-//! Where a run comes from: its command, what it read, and one hash over all that decides its results.
-//!
-//! ```text
-//! run_sha256 = SHA-256 of version, resolved scenario (or system structure), output settings, steps and why they are these,
-//!              every file read by what it was read as and its SHA-256, and the options that may change a result
-//! ```
-//!
-//! Not in it: paths, the title, `--isolate` and `--timeout` (an FMU gives the same bits in a process of its own), `--quiet`
-//! and `--output`.
+//! Where a run comes from: its command, its options and what it read.
 
 use std::path::{Path, PathBuf};
 
 use schemars::JsonSchema;
 use serde::Serialize;
-use sha2::{Digest, Sha256};
 use ttb_scenario::Checked;
 use ttb_scenario::types::{Irregularity, ModelChoice, Scenario, Step, Structure};
 
-use super::job::Job;
 use crate::cli::{Isolate, Run};
 use crate::error::Error;
-use crate::files::{hexadecimal, sha256};
+use crate::files::sha256;
 
 /// A file that a run read.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
@@ -116,18 +106,6 @@ impl Provenance {
         let sha256 = sha256(&folder.join(path))?;
         self.inputs.push(Input { role: role.into(), path: path.display().to_string(), sha256 });
         Ok(())
-    }
-
-    /// The hash of a run.
-    pub fn hash(&self, job: &Job) -> String {
-        // The scenario counts by what it means, which the origin's hash tells, not by how it is written.
-        let inputs = self.inputs.iter().filter(|input| input.role != "scenario");
-        let inputs: Vec<[&str; 2]> = inputs.map(|input| [input.role.as_str(), input.sha256.as_str()]).collect();
-        let Options { preload, probe, .. } = &self.options;
-        let run = (job.case.step, job.case.substeps, job.case.end, &job.choice, job.case.every, job.case.supports);
-        let all = (env!("CARGO_PKG_VERSION"), job.origin.hash(), run, inputs, preload, probe);
-        // Numbers, texts and lists: there is nothing that cannot be written as JSON.
-        hexadecimal(&Sha256::digest(serde_json::to_vec(&all).unwrap_or_default()))
     }
 }
 

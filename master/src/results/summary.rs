@@ -175,7 +175,7 @@ impl<'a> Summary<'a> {
             signal: error.and_then(Error::signal).map(Signal::name),
             process: outcome.is_none().then(std::process::id),
             title: &job.case.title,
-            run_sha256: job.provenance.hash(job),
+            run_sha256: job.hash(),
             scenario_sha256,
             system_sha256,
             command: &job.provenance.command,
