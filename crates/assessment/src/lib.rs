@@ -1,0 +1,16 @@
+//! What a response means to a code: filters, comfort indices, statistics, limits. Values in, values out: no files, no FMUs, and
+//! nothing is printed.
+//!
+//! ```text
+//! history ── filter ──► reduced to one value: a [`Peak`] ── criteria ──► verdicts
+//! ```
+
+pub mod error;
+pub mod filter;
+pub mod peak;
+pub mod percentile;
+
+pub use error::SignalError;
+pub use filter::{Butterworth, Filter, Phase};
+pub use peak::{Peak, PlaceKind, Statistic};
+pub use percentile::percentile;
