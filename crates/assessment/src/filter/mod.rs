@@ -6,12 +6,14 @@
 mod butterworth;
 mod section;
 mod sliding_mean;
+mod weighting;
 
 use serde::{Deserialize, Serialize};
 
 pub use butterworth::Butterworth;
 pub use section::{Cascade, Section};
 pub use sliding_mean::sliding_mean;
+pub use weighting::Weighting;
 
 use crate::error::SignalError;
 
@@ -50,6 +52,11 @@ pub enum Filter {
         /// m.
         length_m: f64,
     },
+    /// Weighting of human response.
+    Weighting {
+        /// Which.
+        curve: Weighting,
+    },
 }
 
 impl Filter {
@@ -66,6 +73,7 @@ impl Filter {
                 format!("butterworth-{order}-{cut_off_hz}Hz-{phase}")
             }
             Self::SlidingMean { length_m } => format!("mean-{length_m}m"),
+            Self::Weighting { curve } => curve.label().into(),
         }
     }
 
@@ -83,6 +91,7 @@ impl Filter {
                 Ok(filtered)
             }
             Self::SlidingMean { length_m } => sliding_mean(signal, way, length_m),
+            Self::Weighting { curve } => curve.apply(signal, rate),
         }
     }
 }

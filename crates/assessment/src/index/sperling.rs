@@ -1,0 +1,85 @@
+//! Sperling's ride index, from the spectral lines of a piece of record, 0.5 to 40 Hz.
+//!
+//! ```text
+//! A_i = 2/N |Σ_k a_k e^{−2πi f_i k/f_s}|                               lines f_i = i/T, rectangular window
+//! discrete (GB/T 5599)   W_i = 3.57 (A_i³ F(f_i)/f_i)^{0.1},  W = (Σ W_i¹⁰)^{0.1},  A in m/s²
+//!                        F = 0.325 f² (0.5 … 5.9 Hz), 400/f² (5.9 … 20 Hz), 1 above
+//! continuous             W_z = (Σ ½ A_i² B_i²)^{1/6.67},  A in cm/s²
+//!                        B = 0.588 √((1.911 f² + (0.25 f²)²)/((1 − 0.277 f²)² + (1.563 f − 0.0368 f³)²))
+//! ```
+//!
+//! A Hann window corrected for its gain would spread a line over three and add up to 0.2.
+
+use std::f64::consts::PI;
+
+use crate::error::{SignalError, finite};
+
+/// Lowest and highest frequency, Hz.
+const BAND: (f64, f64) = (0.5, 40.0);
+
+/// A line of a spectrum.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Line {
+    /// Hz.
+    pub frequency: f64,
+    /// Amplitude, in the unit of the record.
+    pub amplitude: f64,
+}
+
+/// The lines of the whole record from 0.5 to 40 Hz.
+///
+/// # Errors
+/// A value is not finite, the record has fewer than 80 values in a second, or is shorter than 2 s: then there is no line at
+/// 0.5 Hz.
+pub fn lines(signal: &[f64], rate: f64) -> Result<Vec<Line>, SignalError> {
+    finite(signal)?;
+    let (what, seconds) = ("Sperling's index", signal.len() as f64 / rate);
+    if rate.is_nan() || rate < 2.0 * BAND.1 {
+        return Err(SignalError::TooCoarse { what, frequency: BAND.1, needed: 2.0 * BAND.1, found: rate });
+    }
+    if seconds < (1.0 - 1e-9) / BAND.0 {
+        return Err(SignalError::TooShort { what, needed: 1.0 / BAND.0, found: seconds, unit: "s" });
+    }
+    let n = signal.len();
+    let (first, last) = ((BAND.0 * seconds - 1e-9).ceil() as usize, (BAND.1 * seconds + 1e-9).floor() as usize);
+    Ok((first.max(1)..=last)
+        .map(|i| Line { frequency: i as f64 / seconds, amplitude: amplitude(signal, i, n) })
+        .collect())
+}
+
+/// Amplitude of line `i` of `n` values: the sum by Horner's rule on the unit circle, z = e^{−iθ}.
+fn amplitude(signal: &[f64], i: usize, n: usize) -> f64 {
+    let (sin, cos) = (2.0 * PI * i as f64 / n as f64).sin_cos();
+    let (mut re, mut im) = (0.0, 0.0);
+    for a in signal.iter().rev() {
+        (re, im) = (re * cos + im * sin + a, im * cos - re * sin);
+    }
+    2.0 / n as f64 * f64::hypot(re, im)
+}
+
+/// The discrete index of these lines, amplitudes in m/s².
+pub fn sperling(lines: &[Line]) -> f64 {
+    let term = |line: &Line| {
+        let f = line.frequency;
+        let weight = match f {
+            _ if !(BAND.0 - 1e-9..=BAND.1 + 1e-9).contains(&f) => 0.0,
+            _ if f < 5.9 => 0.325 * f * f,
+            _ if f < 20.0 => 400.0 / (f * f),
+            _ => 1.0,
+        };
+        // W_i¹⁰ without the tenth root between.
+        3.57_f64.powi(10) * line.amplitude.powi(3) * weight / f
+    };
+    lines.iter().map(term).sum::<f64>().powf(0.1)
+}
+
+/// The continuous index W_z of these lines, amplitudes in m/s².
+pub fn sperling_continuous(lines: &[Line]) -> f64 {
+    let term = |line: &Line| {
+        let (f, f2) = (line.frequency, line.frequency.powi(2));
+        let upper = 1.911 * f2 + (0.25 * f2).powi(2);
+        let lower = (1.0 - 0.277 * f2).powi(2) + (1.563 * f - 0.0368 * f2 * f).powi(2);
+        0.5 * (100.0 * line.amplitude).powi(2) * 0.588_f64.powi(2) * upper / lower
+    };
+    lines.iter().map(term).sum::<f64>().powf(1.0 / 6.67)
+}
