@@ -6,15 +6,25 @@
 //! ```
 
 pub mod amplification;
+pub mod criterion;
 pub mod error;
+pub mod facts;
 pub mod filter;
 pub mod index;
+pub mod judge;
 pub mod peak;
 pub mod percentile;
+pub mod run;
 pub mod sample;
+pub mod verdict;
 
+pub use criterion::{Criteria, Criterion};
 pub use error::SignalError;
+pub use facts::Facts;
 pub use filter::{Butterworth, Filter, Phase, Weighting};
+pub use judge::judge;
 pub use peak::{Peak, PlaceKind, Statistic};
 pub use percentile::percentile;
+pub use run::{Basis, Loads, Missing, Rail, Results, Run};
 pub use sample::{Sample, Seeded};
+pub use verdict::{Status, Verdict, Verdicts};

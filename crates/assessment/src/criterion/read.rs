@@ -1,0 +1,233 @@
+//! Limits files read, and sets of criteria made of several: a later file overrides single entries of earlier ones by their id.
+//!
+//! An entry that overrides another gives only the keys that change. It must have a `source` of its own, and is marked `user`
+//! unless it says otherwise, so that a report never shows a project's number under the name of a code.
+
+use std::fmt;
+
+use serde_json::{Map, Value};
+
+use super::bundled;
+use super::keys::{FILE, nearest};
+use super::{Criterion, FilterRule};
+use crate::facts::Facts;
+use crate::filter::Filter;
+use crate::peak::Statistic;
+
+/// One problem of a limits file.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct LimitsProblem {
+    /// The file as it was named.
+    pub file: String,
+    /// JSON path; empty for the file as a whole.
+    pub path: String,
+    /// The rule.
+    pub rule: String,
+    /// What was found.
+    pub value: String,
+    /// What may have been meant.
+    pub suggestion: Option<String>,
+}
+
+impl fmt::Display for LimitsProblem {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}: ", self.file)?;
+        if !self.path.is_empty() {
+            write!(f, "{}: ", self.path)?;
+        }
+        f.write_str(&self.rule)?;
+        if !self.value.is_empty() {
+            write!(f, ": {}", self.value)?;
+        }
+        match &self.suggestion {
+            Some(name) => write!(f, " (did you mean `{name}`?)"),
+            None => Ok(()),
+        }
+    }
+}
+
+/// A set of criteria in the order of their files.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Criteria {
+    /// All.
+    pub all: Vec<Criterion>,
+    /// Facts that the user's files give.
+    pub facts: Facts,
+    /// Names of the files.
+    pub files: Vec<String>,
+}
+
+impl Criteria {
+    /// Of texts of limits files, each with its name, in this order.
+    ///
+    /// # Errors
+    /// All problems of all files.
+    pub fn read<'a>(files: impl IntoIterator<Item = (&'a str, &'a str)>) -> Result<Self, Vec<LimitsProblem>> {
+        let (mut set, mut problems) = (Self::default(), Vec::new());
+        // As they were read, so that a later file can give single keys.
+        let mut entries: Vec<(String, Map<String, Value>)> = Vec::new();
+        for (name, text) in files {
+            set.files.push(name.into());
+            match serde_json::from_str::<Value>(text) {
+                Ok(file) => add(name, &file, &mut entries, &mut set.facts, &mut problems),
+                Err(error) => problems.push(problem(name, "", "must be JSON", error.to_string())),
+            }
+        }
+        for (path_file, entry) in entries {
+            let id = entry.get("id").and_then(Value::as_str).unwrap_or_default().to_string();
+            match serde_json::from_value::<Criterion>(Value::Object(entry)) {
+                Ok(criterion) => {
+                    check(&criterion, &path_file, &mut problems);
+                    set.all.push(criterion);
+                }
+                Err(error) => problems.push(problem(&path_file, &format!("$.criteria[{id}]"), &error.to_string(), "")),
+            }
+        }
+        if problems.is_empty() { Ok(set) } else { Err(problems) }
+    }
+
+    /// Of bundled files by name.
+    ///
+    /// # Errors
+    /// A name is not known.
+    pub fn bundled(names: &[&str]) -> Result<Self, Vec<LimitsProblem>> {
+        let found: Result<Vec<_>, _> = names
+            .iter()
+            .map(|name| bundled::text(name).map(|text| (*name, text)).ok_or_else(|| vec![unknown_file(name)]))
+            .collect();
+        Self::read(found?)
+    }
+
+    /// What the criteria ask for of each quantity: statistic and filter, without repetition; the raw value of everything
+    /// that is judged behind a filter is among them.
+    pub fn wanted(&self, facts: &Facts) -> Vec<Wanted> {
+        let mut wanted: Vec<Wanted> = Vec::new();
+        for criterion in self.all.iter().filter(|criterion| criterion.never.is_none()) {
+            let filters = criterion.filter.resolve(facts).map(|resolved| resolved.filter);
+            for filter in filters.into_iter().chain([Filter::Raw]) {
+                let one = Wanted { quantity: criterion.quantity.clone(), statistic: criterion.statistic, filter };
+                if !wanted.contains(&one) {
+                    wanted.push(one);
+                }
+            }
+        }
+        wanted
+    }
+}
+
+/// A reduced value that a criterion asks for.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Wanted {
+    /// Quantity.
+    pub quantity: String,
+    /// Statistic.
+    pub statistic: Statistic,
+    /// Filter.
+    pub filter: Filter,
+}
+
+/// A name that is neither a bundled file nor one of the user's.
+pub(crate) fn unknown_file(name: &str) -> LimitsProblem {
+    let rule = format!("no limits file of this name; bundled are {}", bundled::names().collect::<Vec<_>>().join(", "));
+    LimitsProblem { suggestion: nearest(name, bundled::names()), ..problem(name, "", &rule, "") }
+}
+
+fn problem(file: &str, path: &str, rule: &str, value: impl Into<String>) -> LimitsProblem {
+    LimitsProblem { file: file.into(), path: path.into(), rule: rule.into(), value: value.into(), suggestion: None }
+}
+
+/// Adds one file's entries, and its facts.
+fn add(
+    name: &str,
+    file: &Value,
+    entries: &mut Vec<(String, Map<String, Value>)>,
+    facts: &mut Facts,
+    problems: &mut Vec<LimitsProblem>,
+) {
+    FILE.check(file, name, "$", problems);
+    if !file.is_object() {
+        problems.push(problem(name, "$", "must be an object with `criteria`", ""));
+    }
+    if let Some(given) = file.get("facts") {
+        match serde_json::from_value::<Facts>(without_comments(given)) {
+            Ok(given) => *facts = facts.overruled_by(&given),
+            Err(error) => problems.push(problem(name, "$.facts", &error.to_string(), "")),
+        }
+    }
+    let list = file.get("criteria").map_or(&[][..], |list| list.as_array().map_or(&[][..], Vec::as_slice));
+    for (i, entry) in list.iter().enumerate() {
+        let path = format!("$.criteria[{i}]");
+        let Value::Object(mut entry) = without_comments(entry) else {
+            problems.push(problem(name, &path, "must be an object", ""));
+            continue;
+        };
+        let Some(id) = entry.get("id").and_then(Value::as_str).map(str::to_string) else {
+            problems.push(problem(name, &path, "must have an `id`", ""));
+            continue;
+        };
+        let bundled = bundled::text(name).is_some();
+        if !bundled && !entry.get("source").is_some_and(|source| source.as_str().is_some_and(|s| !s.is_empty())) {
+            let rule = "must say in `source` where its numbers come from";
+            problems.push(problem(name, &path, rule, format!("`{id}`")));
+        }
+        let known: Vec<&str> = entries.iter().filter_map(|(_, e)| e.get("id")?.as_str()).collect();
+        let own = |key: &str| file.get(key).and_then(Value::as_str).unwrap_or_default();
+        entry.insert("file".into(), name.into());
+        if !bundled {
+            entry.entry("verified").or_insert("user".into());
+        }
+        if let Some(at) = known.iter().position(|known| *known == id) {
+            // Another code's or the project's edition and note, never those of the entry it replaces.
+            for (key, text) in [("edition", own("edition")), ("note", "")] {
+                entry.entry(key).or_insert(text.into());
+            }
+            let (_, earlier) = &mut entries[at];
+            earlier.extend(entry);
+            entries[at].0 = name.into();
+        } else if entry.contains_key("quantity") {
+            for key in ["edition", "source"] {
+                let text = own(key);
+                entry.entry(key).or_insert(text.into());
+            }
+            entries.push((name.into(), entry));
+        } else {
+            let suggestion = nearest(&id, known.iter().copied());
+            let rule = "unknown criterion: a new one must have a `quantity`, another overrides one of an earlier file";
+            problems
+                .push(LimitsProblem { suggestion, ..problem(name, &format!("{path}.id"), rule, format!("`{id}`")) });
+        }
+    }
+}
+
+fn without_comments(value: &Value) -> Value {
+    match value {
+        Value::Object(object) => {
+            let kept = object.iter().filter(|(key, _)| !matches!(key.as_str(), "$comment" | "$schema"));
+            Value::Object(kept.map(|(key, value)| (key.clone(), without_comments(value))).collect())
+        }
+        Value::Array(items) => Value::Array(items.iter().map(without_comments).collect()),
+        other => other.clone(),
+    }
+}
+
+/// Numbers that cannot be.
+fn check(criterion: &Criterion, file: &str, problems: &mut Vec<LimitsProblem>) {
+    let path = format!("$.criteria[{}]", criterion.id);
+    for case in &criterion.cases {
+        let positive = match case.limit {
+            super::Limit::Span { span_over } => span_over,
+            _ => 1.0,
+        };
+        if positive <= 0.0 {
+            problems.push(problem(file, &format!("{path}.cases"), "span_over must be positive", positive.to_string()));
+        }
+    }
+    if let FilterRule::Butterworth { order, .. } = &criterion.filter
+        && !(1..=20).contains(order)
+    {
+        problems.push(problem(file, &format!("{path}.filter.order"), "must be from 1 to 20", order.to_string()));
+    }
+    if criterion.source.is_empty() || criterion.verified.is_empty() {
+        problems.push(problem(file, &path, "must have `source` and `verified`", ""));
+    }
+}
