@@ -32,12 +32,20 @@ pub mod quantity {
     pub const WHEEL_UNLOADING: &str = "wheel.unloading";
     /// Time without contact of a wheelset, s; statistics `count`, `sum`, `max`.
     pub const CONTACT_LOSS: &str = "wheel.contact-loss";
+    /// The same, of the losses that begin on the bridge.
+    pub const CONTACT_LOSS_ON_BRIDGE: &str = "wheel.contact-loss-on-bridge";
+    /// The longest way of a wheelset without contact, m.
+    pub const CONTACT_LOSS_WAY: &str = "wheel.contact-loss-way";
     /// Vertical acceleration of a car body, m/s².
     pub const BODY_ACCELERATION: &str = "body.acceleration";
-    /// Sperling's index of a car body, from spectral lines.
+    /// Sperling's index of a car body: the greatest of all pieces of 5 s.
     pub const SPERLING: &str = "body.sperling";
-    /// Sperling's index by the continuous weighting W_z.
+    /// The same of the whole record, which is not what the code names.
+    pub const SPERLING_WHOLE: &str = "body.sperling-whole";
+    /// Sperling's index by the continuous weighting W_z: the greatest of all pieces of 5 s.
     pub const SPERLING_CONTINUOUS: &str = "body.sperling-wz";
+    /// The same of the whole record.
+    pub const SPERLING_CONTINUOUS_WHOLE: &str = "body.sperling-wz-whole";
     /// Mean comfort N_MV, vertical part.
     pub const COMFORT_N_MV: &str = "body.comfort-n-mv";
     /// Greatest dynamic over greatest static value, less 1.
