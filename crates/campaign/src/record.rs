@@ -1,0 +1,108 @@
+//! What a run leaves: reduced values, or why it failed.
+
+use std::borrow::Cow;
+
+use serde::{Deserialize, Serialize};
+use ttb_assessment::Peak;
+
+/// Format of the journal's files; another one is not read.
+pub const FORMAT: u32 = 1;
+
+/// One run's file in the journal.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Record {
+    /// [`FORMAT`].
+    pub format: u32,
+    /// Id of the run.
+    pub run_id: String,
+    /// Why it failed; `None`: it is done.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub error: Option<String>,
+    /// Step, s.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub step: Option<f64>,
+    /// Number of modes; `None`: in all degrees of freedom.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub modes: Option<usize>,
+    /// Seconds that a worker spent on it. Not a result: the tables leave it out.
+    pub seconds: f64,
+    /// Reduced values.
+    #[serde(default)]
+    pub peaks: Vec<Peak>,
+    /// Extremes along the deck.
+    #[serde(default)]
+    pub envelopes: Vec<Envelope>,
+}
+
+/// Least and greatest value of a quantity at every point of the deck.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Envelope {
+    /// What: one of [`ttb_assessment::quantity`].
+    pub quantity: Cow<'static, str>,
+    /// Label of its filter, `raw` without.
+    pub filter: Cow<'static, str>,
+    /// Unit as FMI writes it.
+    pub unit: Cow<'static, str>,
+    /// Where, m from the bridge's begin.
+    pub x: Vec<f64>,
+    /// Least values there.
+    pub min: Vec<f64>,
+    /// Greatest values there.
+    pub max: Vec<f64>,
+}
+
+impl Record {
+    /// Of a run that failed.
+    pub fn failed(run_id: &str, error: impl Into<String>, seconds: f64) -> Self {
+        let (run_id, error) = (run_id.into(), Some(error.into()));
+        Self {
+            format: FORMAT,
+            run_id,
+            error,
+            step: None,
+            modes: None,
+            seconds,
+            peaks: Vec::new(),
+            envelopes: Vec::new(),
+        }
+    }
+
+    /// Itself, or a failed run if a value is not finite: such a value would pass through no comparison.
+    #[must_use]
+    pub fn finite(self) -> Self {
+        let bad = self.peaks.iter().find(|peak| {
+            ![Some(peak.value), peak.x, peak.time, peak.static_value].into_iter().flatten().all(f64::is_finite)
+        });
+        if let Some(peak) = bad {
+            let error = format!("{} ({}, {}) is {}", peak.quantity, peak.filter, peak.statistic, peak.value);
+            return Self::failed(&self.run_id, error, self.seconds);
+        }
+        let all = |envelope: &Envelope| envelope.min.iter().chain(&envelope.max).all(|x| x.is_finite());
+        match self.envelopes.iter().find(|envelope| !all(envelope)) {
+            Some(envelope) => {
+                let error = format!("{} ({}) is not finite along the deck", envelope.quantity, envelope.filter);
+                Self::failed(&self.run_id, error, self.seconds)
+            }
+            None => self,
+        }
+    }
+
+    /// The value of a quantity with its filter and statistic, if the run has it.
+    pub fn value(&self, key: &Key) -> Option<f64> {
+        let is = |peak: &&Peak| {
+            peak.quantity == key.quantity && peak.filter == key.filter && peak.statistic.name() == key.statistic
+        };
+        self.peaks.iter().filter(is).map(|peak| peak.value).reduce(f64::max)
+    }
+}
+
+/// Names a reduced value among a run's.
+#[derive(Clone, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
+pub struct Key {
+    /// What.
+    pub quantity: String,
+    /// Label of the filter.
+    pub filter: String,
+    /// Name of the statistic.
+    pub statistic: String,
+}
