@@ -71,6 +71,12 @@ impl Deck {
         [self.pieces[0].from, self.pieces[self.pieces.len() - 1].to]
     }
 
+    /// The elements of the path in track order: position in the mesh, begin and end, m, and whether its first node is the
+    /// far one.
+    pub fn elements(&self) -> impl Iterator<Item = (usize, [f64; 2], bool)> {
+        self.pieces.iter().map(|piece| (piece.element, [piece.from, piece.to], piece.backward))
+    }
+
     /// The elements at x with their own ξ: one, two at a joint, none off the deck.
     fn at(&self, x: f64) -> impl Iterator<Item = (usize, f64)> {
         let first = self.pieces.partition_point(|p| p.to < x - NEAR);

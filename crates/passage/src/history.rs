@@ -1,0 +1,120 @@
+//! Histories of a passage: few, of modes, from which those of all places follow. A linear filter that is applied to them is
+//! applied to every place.
+
+use crate::extreme::{Extreme, WIDE, Watch};
+use crate::load::TrainLoad;
+use crate::march::{Keep, March, combine};
+use crate::modal::ModalBridge;
+
+/// Modal motions of a passage at steps 0 (at rest), 1, …
+#[derive(Clone, Debug)]
+pub struct Histories<'a> {
+    bridge: &'a ModalBridge,
+    load: &'a TrainLoad,
+    stride: usize,
+    /// Step, s; time counts from the first axle at the deck's begin.
+    pub h: f64,
+    /// q_j, one history a mode.
+    pub positions: Vec<Vec<f64>>,
+    /// q̈_j, one history a mode.
+    pub accelerations: Vec<Vec<f64>>,
+}
+
+struct Kept {
+    next: usize,
+    positions: Vec<Vec<f64>>,
+    accelerations: Vec<Vec<f64>>,
+}
+
+impl Keep for Kept {
+    fn keep(&mut self, q: &[f64; 4], a: &[f64; 4]) {
+        for (q, a) in q.iter().zip(a) {
+            if let (Some(positions), Some(accelerations)) =
+                (self.positions.get_mut(self.next), self.accelerations.get_mut(self.next))
+            {
+                positions.push(*q);
+                accelerations.push(*a);
+            }
+            self.next += 1;
+        }
+        if self.next >= self.positions.len() {
+            self.next = 0;
+        }
+    }
+}
+
+impl<'a> Histories<'a> {
+    pub(crate) fn of(bridge: &'a ModalBridge, load: &'a TrainLoad, march: &March, stride: usize) -> Self {
+        let start = || {
+            let mut history = Vec::with_capacity(march.steps + 1);
+            history.push(0.0);
+            history
+        };
+        let all = || (0..bridge.modes().len()).map(|_| start()).collect::<Vec<_>>();
+        let mut kept = Kept { next: 0, positions: all(), accelerations: all() };
+        march.kept(&mut kept);
+        Self { bridge, load, stride, h: march.h, positions: kept.positions, accelerations: kept.accelerations }
+    }
+
+    /// Number of samples.
+    #[must_use]
+    pub fn samples(&self) -> usize {
+        self.positions.first().map_or(0, Vec::len)
+    }
+
+    /// The same with `filter(h, history)` applied to every modal acceleration, and to nothing else.
+    #[must_use]
+    pub fn filtered(&self, filter: impl Fn(f64, &mut [f64])) -> Self {
+        let mut filtered = self.clone();
+        filtered.accelerations.iter_mut().for_each(|history| filter(self.h, history));
+        filtered
+    }
+
+    /// History of an output of the bridge.
+    #[must_use]
+    pub fn output(&self, output: usize) -> Vec<f64> {
+        let positions = self.bridge.positions();
+        let modes = self.bridge.modes().len();
+        let (rows, source, place) = if output < positions {
+            (self.bridge.position_rows(), &self.positions, output)
+        } else {
+            (self.bridge.acceleration_rows(), &self.accelerations, output - positions)
+        };
+        let (group, lane) = (place / WIDE, place % WIDE);
+        let mut y = vec![0.0; self.samples()];
+        if output < positions {
+            y.iter_mut().enumerate().for_each(|(n, y)| *y = self.rest(n, group)[lane]);
+        }
+        for (row, history) in rows[group * modes..(group + 1) * modes].iter().zip(source) {
+            y.iter_mut().zip(history).for_each(|(y, x)| *y += row[lane] * x);
+        }
+        y
+    }
+
+    /// Extremes of all accelerations, in the order of the bridge's outputs behind [`ModalBridge::positions`].
+    #[must_use]
+    pub fn accelerations(&self) -> Vec<Extreme> {
+        let modes = self.bridge.modes().len();
+        let count = self.bridge.outputs().len() - self.bridge.positions();
+        let mut found = Vec::with_capacity(count);
+        let mut now = vec![0.0; modes];
+        let groups = self.bridge.acceleration_rows().chunks_exact(modes.max(1));
+        let mut watches = vec![Watch::default(); groups.len()];
+        for n in 0..self.samples() {
+            now.iter_mut().zip(&self.accelerations).for_each(|(now, history)| *now = history[n]);
+            for (watch, rows) in watches.iter_mut().zip(groups.clone()) {
+                let mut y = [0.0; WIDE];
+                combine(rows, &now, &mut y);
+                watch.look(&y, n, self.h);
+            }
+        }
+        found.extend(watches.iter().flat_map(|watch| watch.finish(self.samples(), self.h)));
+        found.truncate(count);
+        found
+    }
+
+    fn rest(&self, n: usize, group: usize) -> [f64; WIDE] {
+        let (row, groups) = (n * self.stride, self.load.rest.len() / self.load.rows.max(1));
+        if row < self.load.rows { self.load.rest[row * groups + group].map(f64::from) } else { [0.0; WIDE] }
+    }
+}

@@ -1,0 +1,43 @@
+//! Passages of axle loads over linear bridges, without vehicles, track and irregularity.
+//!
+//! ```text
+//! BridgeSpec ─ ModalBridge ─┐
+//! ForceTrain ───────────────┴─ Passage ─ at(speed) ────────▶ Response: an Extreme for every output
+//!                                 ├─ histories(speed) ─────▶ Histories ─ filtered(…) ─ accelerations()
+//!                                 └─ statics() ────────────▶ static extremes of the same train at the same places
+//! ```
+//!
+//! **What a passage returns.** [`ModalBridge::outputs`] is the list of what is looked at: an [`Output`] is a [`Quantity`]
+//! (name and unit as in the tidy tables) at a [`Place`] (kind, name, x). The first [`ModalBridge::positions`] of them follow
+//! displacements (displacement, and with [`Settings::forces`] moment, shear, reaction); the accelerations come after them.
+//! [`Response::extremes`] has one [`Extreme`] for every output in that order: maximum and minimum with their times in s from
+//! the first axle at the deck's begin. [`Passage::statics`] has one for each of the first group, the static value of the
+//! same train, which φ′ needs. A row of a table is one output, one statistic (`max`, `min`, or `abs-max` by
+//! [`Extreme::largest`]) and its static value.
+//!
+//! **Filters.** [`Passage::histories`] gives the few modal accelerations; [`Histories::filtered`] applies a linear filter to
+//! them, and [`Histories::accelerations`] combines them at all deck points.
+//!
+//! A response depends on bridge, train, heading, free vibration and its own speed alone: not on other speeds, threads or
+//! vector instructions.
+
+pub mod extreme;
+pub mod history;
+pub mod lines;
+pub mod load;
+pub mod march;
+pub mod modal;
+pub mod passage;
+pub mod place;
+mod plane;
+pub mod recursion;
+mod sampled;
+mod source;
+pub mod statics;
+
+pub use extreme::Extreme;
+pub use history::Histories;
+pub use load::Heading;
+pub use modal::{ModalBridge, Refused, Settings};
+pub use passage::{Passage, Response};
+pub use place::{Output, Place, PlaceKind, Quantity};

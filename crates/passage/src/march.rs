@@ -1,0 +1,165 @@
+//! A passage step by step: modes by the exact recursion, outputs combined and reduced at once.
+//!
+//! The loops run over modes and over groups of eight outputs; the instruction set is chosen at run time, the order of
+//! additions and their rounding are the same with all of them.
+
+use crate::extreme::{Extreme, WIDE, Watch};
+use crate::load::TrainLoad;
+use crate::modal::ModalBridge;
+use crate::recursion::Coefficients;
+
+/// Four modes.
+const QUAD: usize = 4;
+
+/// A passage at one speed.
+pub struct March<'a> {
+    bridge: &'a ModalBridge,
+    load: &'a TrainLoad,
+    /// Rows of the tables a step.
+    stride: usize,
+    /// Step, s.
+    pub h: f64,
+    /// Number of steps.
+    pub steps: usize,
+}
+
+/// Four modes in step: motion and coefficients.
+#[derive(Clone, Default)]
+struct Quad {
+    q: [f64; QUAD],
+    v: [f64; QUAD],
+    a: [f64; QUAD],
+    position: [[f64; QUAD]; 4],
+    velocity: [[f64; QUAD]; 4],
+    rate: [f64; QUAD],
+    omega2: [f64; QUAD],
+}
+
+impl Quad {
+    /// From p₀ to p₁.
+    #[inline(always)]
+    fn step(&mut self, p0: &[f64; QUAD], p1: &[f64; QUAD]) {
+        for i in 0..QUAD {
+            let (q, v) = (self.q[i], self.v[i]);
+            let row = |c: &[[f64; QUAD]; 4]| (c[2][i] * p0[i] + c[3][i] * p1[i]) + (c[0][i] * q + c[1][i] * v);
+            (self.q[i], self.v[i]) = (row(&self.position), row(&self.velocity));
+            self.a[i] = p1[i] - self.rate[i] * self.v[i] - self.omega2[i] * self.q[i];
+        }
+    }
+}
+
+/// What a march is asked for beside extremes.
+pub trait Keep {
+    /// Modal motion after a step: q and q̈ in fours.
+    fn keep(&mut self, q: &[f64; QUAD], a: &[f64; QUAD]);
+}
+
+/// Nothing is kept.
+pub struct Nothing;
+
+impl Keep for Nothing {
+    #[inline(always)]
+    fn keep(&mut self, _q: &[f64; QUAD], _a: &[f64; QUAD]) {}
+}
+
+impl<'a> March<'a> {
+    /// At `speed` m/s, with free vibration for `free` s behind the train; the step is the longest that is a whole number of
+    /// rows and no longer than the bridge allows.
+    #[must_use]
+    pub fn new(bridge: &'a ModalBridge, load: &'a TrainLoad, length: f64, speed: f64, free: f64) -> Self {
+        let stride = ((speed * bridge.longest_step() / load.grid).floor() as usize).max(1);
+        let h = stride as f64 * load.grid / speed;
+        let steps = (((bridge.length() + length) / speed + free) / h).ceil() as usize;
+        Self { bridge, load, stride, h, steps }
+    }
+
+    /// Rows of the tables a step.
+    #[must_use]
+    pub fn stride(&self) -> usize {
+        self.stride
+    }
+
+    fn quads(&self) -> Vec<Quad> {
+        let modes = self.bridge.modes();
+        let quads = modes.chunks(QUAD).map(|chunk| {
+            let mut quad = Quad::default();
+            for (i, mode) in chunk.iter().enumerate() {
+                let Coefficients { position, velocity } = mode.step(self.h);
+                for k in 0..4 {
+                    (quad.position[k][i], quad.velocity[k][i]) = (position[k], velocity[k]);
+                }
+                (quad.rate[i], quad.omega2[i]) = (mode.rate, mode.omega * mode.omega);
+            }
+            quad
+        });
+        quads.collect()
+    }
+
+    /// Extremes of all outputs, in the bridge's order.
+    #[must_use]
+    pub fn extremes(&self) -> Vec<Extreme> {
+        let (mut quads, positions) = (self.quads(), self.bridge.positions());
+        let accelerations = self.bridge.outputs().len() - positions;
+        let [wide, fast] = [positions, accelerations].map(|n| n.div_ceil(WIDE));
+        let mut watches = vec![Watch::default(); wide + fast];
+        pulp::Arch::new().dispatch(|| self.run(&mut quads, &mut watches, wide, &mut Nothing));
+        let found = watches.iter().flat_map(|watch| watch.finish(self.steps + 1, self.h));
+        let found: Vec<Extreme> = found.collect();
+        let (slow, quick) = found.split_at(wide * WIDE);
+        slow[..positions].iter().chain(&quick[..accelerations]).copied().collect()
+    }
+
+    /// Runs with every modal motion handed to `keep`.
+    pub fn kept(&self, keep: &mut impl Keep) {
+        let mut quads = self.quads();
+        self.run(&mut quads, &mut [], 0, keep);
+    }
+
+    /// Rest of a step's row; zero behind the train.
+    #[inline(always)]
+    fn rest(&self, row: usize, groups: usize, group: usize) -> [f64; WIDE] {
+        if row < self.load.rows { self.load.rest[row * groups + group].map(f64::from) } else { [0.0; WIDE] }
+    }
+
+    #[inline(always)]
+    fn run(&self, quads: &mut [Quad], watches: &mut [Watch], wide: usize, keep: &mut impl Keep) {
+        let modes = self.bridge.modes().len();
+        let (rows, fast_rows) = (self.bridge.position_rows(), self.bridge.acceleration_rows());
+        let (slow, fast) = watches.split_at_mut(wide);
+        let groups = self.load.rest.len() / self.load.rows.max(1);
+        let (forces, _) = self.load.forces.as_chunks::<QUAD>();
+        let zero = [0.0; QUAD];
+        let mut q = vec![0.0; quads.len() * QUAD];
+        let mut a = vec![0.0; quads.len() * QUAD];
+        for n in 1..=self.steps {
+            let [before, now] = [(n - 1) * self.stride, n * self.stride];
+            for (j, quad) in quads.iter_mut().enumerate() {
+                let force = |row: usize| forces.get(row * (forces.len() / self.load.rows) + j).unwrap_or(&zero);
+                quad.step(force(before), force(now));
+                keep.keep(&quad.q, &quad.a);
+                q[j * QUAD..(j + 1) * QUAD].copy_from_slice(&quad.q);
+                a[j * QUAD..(j + 1) * QUAD].copy_from_slice(&quad.a);
+            }
+            for (group, watch) in slow.iter_mut().enumerate() {
+                let mut y = self.rest(now, groups, group);
+                combine(&rows[group * modes..(group + 1) * modes], &q, &mut y);
+                watch.look(&y, n, self.h);
+            }
+            for (group, watch) in fast.iter_mut().enumerate() {
+                let mut y = [0.0; WIDE];
+                combine(&fast_rows[group * modes..(group + 1) * modes], &a, &mut y);
+                watch.look(&y, n, self.h);
+            }
+        }
+    }
+}
+
+/// y ← y + Σ_j row_j x_j.
+#[inline(always)]
+pub fn combine(rows: &[[f64; WIDE]], x: &[f64], y: &mut [f64; WIDE]) {
+    for (row, x) in rows.iter().zip(x) {
+        for i in 0..WIDE {
+            y[i] += row[i] * x;
+        }
+    }
+}
