@@ -78,8 +78,11 @@ def test_iterations_have_one_row_a_step_and_add_up_to_the_summary(r1_run, summar
 
 
 def test_the_summarys_peaks_are_those_of_the_results(summary, results):
-    """Value, time and, for wheels, place of both extremes of every column."""
+    """Value, time and, for wheels, place of both extremes of every column, from the first wheel on the bridge on."""
     assert list(summary["peaks"]) == list(results.columns[1:])
+    begin, end = summary["peaks_between_s"]
+    assert (begin, end) == (pytest.approx(9 / (250 / 3.6)), 1.1)
+    results = results[results["time"] >= begin]
     for name, peak in summary["peaks"].items():
         series = results[name]
         for extreme, row in ((peak["min"], series.idxmin()), (peak["max"], series.idxmax())):
@@ -158,7 +161,7 @@ def test_the_resolved_scenario_gives_the_same_run_from_anywhere(ttb, examples, t
     finally:
         place.unlink()
     resolved = json.loads((tmp_path / "a" / "scenario.resolved.json").read_text())
-    assert resolved["coupling"]["tolerance"] == 1e-6 and resolved["output"] == {"every": 1, "supports": False}
+    assert resolved["coupling"]["tolerance"] == 1e-6 and resolved["output"] == {"every": 1, "peaks_from": "bridge", "supports": False}
     ttb("run", tmp_path / "a" / "scenario.resolved.json", "-o", tmp_path / "b")
     summaries = [json.loads((tmp_path / run / "summary.json").read_text()) for run in "ab"]
     assert summaries[0]["scenario_sha256"] == summaries[1]["scenario_sha256"]

@@ -7,7 +7,7 @@ use ttb_contract::ModelError;
 use ttb_dynamics::beam::Beam;
 use ttb_dynamics::frame::FrameElement;
 use ttb_scenario::limits::MOST_ELEMENTS_PER_SPAN;
-use ttb_scenario::types::Span;
+use ttb_scenario::spec::Span;
 
 use crate::mesh::{Element, Mesh, Node};
 

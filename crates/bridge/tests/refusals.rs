@@ -27,7 +27,7 @@ fn girder() -> Frame {
 
 #[test]
 fn spans() {
-    let with = |change: fn(&mut ttb_scenario::types::Span)| {
+    let with = |change: fn(&mut ttb_scenario::spec::Span)| {
         let mut bad = span(20.0, 1.5e10, 5000.0, 8);
         change(&mut bad);
         beams(vec![span(10.0, 1.5e10, 5000.0, 8), bad], 4, 1e-3)

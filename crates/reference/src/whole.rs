@@ -12,7 +12,7 @@ use ttb_bridge::{imported, law, plane, space};
 use ttb_contract::finite::larger;
 use ttb_dynamics::newmark::Motion;
 use ttb_scenario::spec::{BridgeSpec, StructureSpec, TrainTrackSpec};
-use ttb_scenario::travel::wheel_offsets;
+use ttb_scenario::travel::{fade_in, wheel_offsets};
 use ttb_scenario::types::{Damping, Newmark, Spring, Support};
 use ttb_sparse::Layout;
 use ttb_sparse::Pencil;
@@ -102,11 +102,12 @@ impl Whole {
         let axle_load = cars.iter().map(|c| c.axle_load).fold(0.0, larger);
         let laws = cars.iter().flat_map(|c| [Contact::new(&train.contact, c.axle_load); AXLES]).collect();
         let length: f64 = train.cars.iter().map(|c| c.length).sum();
-        let before = if train.pre_roll > 0.0 { train.pre_roll + length } else { 0.0 };
-        let passage = [train.front_wheel - before, track.extent().1];
+        let offsets = wheel_offsets(&train.cars);
+        let last = offsets.last().copied().unwrap_or(0.0);
+        let passage = [fade_in(train.front_wheel, last, length, train.pre_roll), track.extent().1];
         let irregularity = Irregularity::new(&train.irregularity, train.irregularity_scale, passage, None);
         let running = Running::new(&train.speed, 1.0);
-        let wheels = Wheels::new(laws, wheel_offsets(&train.cars), train.front_wheel, running, irregularity);
+        let wheels = Wheels::new(laws, offsets, train.front_wheel, running, irregularity);
         let (n, ndof) = (track.order(), pencil.ndof());
         let axles = vec![0.0; cars.len() * AXLES];
         let start = State {

@@ -12,6 +12,9 @@ use crate::problem::Report;
 /// Deeper nesting than this is no scenario.
 const DEPTH: usize = 64;
 
+/// A key for people; it may stand in every object, with any value.
+pub(crate) const COMMENT: &str = "$comment";
+
 /// A document read, as far as it can be read.
 pub(crate) struct Document {
     pub value: Value,
@@ -71,10 +74,10 @@ impl Reader<'_> {
 
     fn object(&mut self, path: &str, depth: usize) -> Result<Value, Syntax> {
         let error = |expected| Syntax { path: path.to_owned(), expected };
-        let mut map = Map::new();
+        let (mut map, mut first) = (Map::new(), true);
         self.skip('{');
         while !self.skip('}') {
-            if !map.is_empty() && !self.skip(',') {
+            if !first && !self.skip(',') {
                 return Err(error("a comma or }"));
             }
             if self.peek() != Some('"') {
@@ -86,7 +89,10 @@ impl Reader<'_> {
             }
             let inner = format!("{path}.{key}");
             let value = self.value(&inner, depth + 1)?;
-            if map.contains_key(&key) {
+            first = false;
+            if key == COMMENT {
+                // For readers of the file alone.
+            } else if map.contains_key(&key) {
                 self.report.problem(inner, "duplicate key", format!("`{key}`"));
             } else {
                 map.insert(key, value);

@@ -11,11 +11,13 @@ use std::path::Path;
 use sha2::{Digest, Sha256};
 
 use crate::pieces::Pieces;
+use crate::place::{Chosen, place};
 use crate::problem::{MUST_FIT, Problems, Report};
+use crate::settings::Setting;
 use crate::spec::{BridgeSpec, StructureSpec, TrainTrackSpec};
 use crate::step::Steps;
 use crate::types::{Car, CouplingSettings, Scenario};
-use crate::{check, json, resolve, schema, walk};
+use crate::{check, json, passage, resolve, schema, settings, walk};
 
 /// A scenario without problems.
 #[derive(Clone, Debug, PartialEq)]
@@ -28,6 +30,10 @@ pub struct Checked {
     pub bridge: BridgeSpec,
     /// What is allowed, but rarely meant.
     pub warnings: Vec<String>,
+    /// What the scenario leaves out and was chosen; [`Checked::scenario`] has it written in.
+    pub chosen: Vec<Chosen>,
+    /// Between which times peaks count, s.
+    pub peaks: [f64; 2],
     /// SHA-256 (hexadecimal) of the two specs and the coupling settings as JSON and of all imported files: of all that
     /// decides the result, not of the file's layout, titles, or the choice of output.
     pub hash: String,
@@ -54,13 +60,21 @@ impl Checked {
 /// # Errors
 /// All problems of the scenario; a file that cannot be read is one.
 pub fn load(path: &Path) -> Result<Checked, Problems> {
+    load_with(path, &[])
+}
+
+/// Reads and checks a scenario file in which some keys have other values.
+///
+/// # Errors
+/// As [`load`], and settings of keys that no scenario has.
+pub fn load_with(path: &Path, settings: &[Setting]) -> Result<Checked, Problems> {
     let name = path.display().to_string();
     let text = std::fs::read_to_string(path).map_err(|error| {
         let mut report = Report::new(&name);
         report.problem("", "the scenario file cannot be read", error);
         report.into_problems()
     })?;
-    from_str(&text, path.parent().unwrap_or(Path::new("")), &name)
+    from_str_with(&text, path.parent().unwrap_or(Path::new("")), &name, settings)
 }
 
 /// Checks a scenario given as text.
@@ -70,25 +84,37 @@ pub fn load(path: &Path) -> Result<Checked, Problems> {
 /// # Errors
 /// All problems of the scenario.
 pub fn from_str(text: &str, base_dir: &Path, file_name: &str) -> Result<Checked, Problems> {
+    from_str_with(text, base_dir, file_name, &[])
+}
+
+/// Checks a scenario given as text in which some keys have other values.
+///
+/// # Errors
+/// As [`from_str`], and settings of keys that no scenario has.
+pub fn from_str_with(text: &str, base_dir: &Path, file_name: &str, settings: &[Setting]) -> Result<Checked, Problems> {
     let mut report = Report::new(file_name);
-    let Some(document) = json::read(text, &mut report) else {
+    let Some(mut document) = json::read(text, &mut report) else {
         return Err(report.into_problems());
     };
+    settings::apply(settings, &mut document, &mut report);
     walk::walk(&schema::SCENARIO, &document.value, &document.reported, &mut report);
     let pieces = Pieces::read(&document.value);
     let resolved = resolve::resolve(&pieces, base_dir, &mut report);
-    check::check(&pieces, &resolved, &mut report);
+    let mut placed = place(&pieces, &resolved, &mut report);
+    check::check(&pieces, &resolved, &placed, &mut report);
     if !report.problems.is_empty() {
         return Err(report.into_problems());
     }
     // What fits the schema fits the types and resolves; should that ever fail, it is a problem like any other.
-    let scenario: Scenario = match serde_json::from_value(document.value) {
+    let mut scenario: Scenario = match serde_json::from_value(document.value) {
         Ok(scenario) => scenario,
         Err(error) => {
             report.problem("$", MUST_FIT, error);
             return Err(report.into_problems());
         }
     };
+    let chosen = std::mem::take(&mut placed.chosen);
+    resolve::fill(&mut scenario, placed);
     let Some((train_track, bridge)) = resolve::specs(&scenario, resolved) else {
         report.problem("$", MUST_FIT, "a name stands for nothing");
         return Err(report.into_problems());
@@ -97,7 +123,10 @@ pub fn from_str(text: &str, base_dir: &Path, file_name: &str) -> Result<Checked,
     if !report.problems.is_empty() {
         return Err(report.into_problems());
     }
+    let peaks = passage::peaks(&scenario, &train_track, &bridge, &mut report);
     Ok(Checked {
+        chosen,
+        peaks,
         hash: hash(&train_track, &bridge, &scenario.coupling),
         axle_load: train_track.cars.iter().map(Car::axle_load).fold(0.0, f64::max),
         scenario,

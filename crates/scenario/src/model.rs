@@ -53,7 +53,6 @@ pub(crate) fn read(path: &Path, report: &mut Report) -> Option<Model> {
 /// Checks a model given as text; `None` if it does not even fit the types. The text is dropped as soon as it can be.
 pub(crate) fn from_str(text: String, report: &mut Report) -> Option<Model> {
     let typed: Result<Model, _> = serde_json::from_str(text.strip_prefix('\u{feff}').unwrap_or(&text));
-    let schema = schema::model_schema();
     match typed {
         Ok(mut model) => {
             drop(text);
@@ -61,13 +60,13 @@ pub(crate) fn from_str(text: String, report: &mut Report) -> Option<Model> {
             model.schema = None;
             // what has been read can be written
             let short = serde_json::to_value(skeleton(&model)).unwrap_or_default();
-            walk::walk(&schema, &short, &HashSet::new(), report);
+            walk::walk(&schema::MODEL, &short, &HashSet::new(), report);
             check(&model, "$", report);
             Some(model)
         }
         Err(error) => {
             let document = json::read(&text, report)?;
-            walk::walk(&schema, &document.value, &document.reported, report);
+            walk::walk(&schema::MODEL, &document.value, &document.reported, report);
             if report.problems.is_empty() {
                 // what fits the schema fits the types; should that ever fail, it is a problem like any other
                 report.problem("$", MUST_FIT, error);

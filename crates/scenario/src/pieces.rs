@@ -18,6 +18,8 @@ pub(crate) struct Pieces {
     pub rail: Option<Rail>,
     pub irregularity: Option<Irregularity>,
     pub bridge: Option<Bridge>,
+    /// Where it begins, m.
+    pub at: Option<f64>,
     pub structure: Option<Structure>,
     pub damping: Option<Damping>,
     pub points: Vec<Option<Point>>,
@@ -25,6 +27,10 @@ pub(crate) struct Pieces {
     pub time: Option<Time>,
     pub newmark: Option<Newmark>,
     pub coupling: Option<CouplingSettings>,
+    /// Keys that are there, whatever they say.
+    pub has_track_type: bool,
+    pub has_step: bool,
+    pub has_points: bool,
 }
 
 impl Pieces {
@@ -33,27 +39,33 @@ impl Pieces {
             train: piece(&scenario["train"]),
             cars: list(&scenario["train"]["cars"]),
             speed: piece(&scenario["train"]["speed"]),
-            track: piece(&scenario["track"]),
-            track_type: piece(&scenario["track"]["type"]),
+            track: or_default(&scenario["track"]),
+            track_type: or_default(&scenario["track"]["type"]),
             rail: piece(&scenario["track"]["type"]["rail"]),
-            irregularity: match scenario.get("irregularity") {
-                None => Some(Irregularity::None),
-                Some(value) => piece(value),
-            },
+            irregularity: or_default(&scenario["irregularity"]),
             bridge: piece(&scenario["bridge"]),
+            at: or_default(&scenario["bridge"]["at"]),
             structure: piece(&scenario["bridge"]["structure"]),
             damping: piece(&scenario["bridge"]["damping"]),
             points: list(&scenario["bridge"]["points"]),
             rail_points: list(&scenario["track"]["points"]),
-            time: piece(&scenario["time"]),
+            time: or_default(&scenario["time"]),
             newmark: piece(&scenario["time"]["newmark"]),
             coupling: piece(&scenario["coupling"]),
+            has_track_type: !scenario["track"]["type"].is_null(),
+            has_step: !scenario["time"]["step"].is_null(),
+            has_points: !scenario["bridge"]["points"].is_null(),
         }
     }
 }
 
 fn piece<T: DeserializeOwned>(value: &Value) -> Option<T> {
     T::deserialize(value).ok()
+}
+
+/// A key that may be left out. One that stands there as null has been complained about.
+fn or_default<T: DeserializeOwned + Default>(value: &Value) -> Option<T> {
+    if value.is_null() { Some(T::default()) } else { piece(value) }
 }
 
 fn list<T: DeserializeOwned>(value: &Value) -> Vec<Option<T>> {

@@ -7,7 +7,9 @@ use crate::deck::Deck;
 use crate::measured;
 use crate::model;
 use crate::pieces::Pieces;
+use crate::place::Placement;
 use crate::problem::Report;
+use crate::spans;
 use crate::spec::{BridgeSpec, Profile, StructureSpec, TrainTrackSpec};
 use crate::step::{Excited, Steps};
 use crate::types::{
@@ -60,8 +62,9 @@ fn track(choice: &TrackChoice) -> Option<TrackType> {
 
 fn structure(structure: &Structure, base_dir: &Path, report: &mut Report) -> Option<StructureSpec> {
     match structure {
-        Structure::Beams { spans, continuous } => {
-            Some(StructureSpec::Beams { spans: spans.clone(), continuous: *continuous })
+        Structure::Beams { spans, continuous, first_frequency } => {
+            let spans = spans::resolve(spans, *continuous, *first_frequency, report)?;
+            Some(StructureSpec::Beams { spans, continuous: *continuous })
         }
         Structure::Frame { frame: FrameChoice::Bundled(name) } => bundled::frame(name).map(StructureSpec::Frame),
         Structure::Frame { frame: FrameChoice::Data(frame) } => Some(StructureSpec::Frame((**frame).clone())),
@@ -106,22 +109,31 @@ fn scale(irregularity: &Irregularity) -> f64 {
     }
 }
 
-/// The two subsystems' specs of a scenario whose names are all known.
+/// Writes what was chosen into the scenario, as if it had stood there.
+pub(crate) fn fill(scenario: &mut Scenario, placed: Placement) {
+    scenario.train.front_wheel = placed.front_wheel;
+    scenario.train.pre_roll = placed.pre_roll;
+    (scenario.track.from, scenario.track.bays) = (placed.from, placed.bays);
+    (scenario.time.end, scenario.time.free_vibration) = (placed.end, placed.free_vibration);
+    scenario.bridge.points = scenario.bridge.points.take().or(placed.points);
+}
+
+/// The two subsystems' specs of a scenario whose names are all known and that leaves no place out.
 pub(crate) fn specs(scenario: &Scenario, resolved: Resolved) -> Option<(TrainTrackSpec, BridgeSpec)> {
     let (track, structure) = (resolved.track?, resolved.structure?);
     let (laid, bridge, time) = (&scenario.track, &scenario.bridge, scenario.time);
-    let given = Steps { step: time.step.given().unwrap_or(time.end), substeps: time.substeps.unwrap_or(1) };
-    let supports =
-        Deck::new(&structure)?.supports(bridge.at, laid.from, track.spacing, laid.bays + 1, bridge.over_bearings);
+    let (from, bays, end) = (laid.from?, laid.bays?, time.end?);
+    let given = Steps { step: time.step.given().unwrap_or(end), substeps: time.substeps.unwrap_or(1) };
+    let supports = Deck::new(&structure)?.supports(bridge.at, from, track.spacing, bays + 1, bridge.over_bearings);
     let mut train_track = TrainTrackSpec {
         cars: resolved.cars?,
-        front_wheel: scenario.train.front_wheel,
+        front_wheel: scenario.train.front_wheel?,
         speed: resolved.speed?,
-        pre_roll: scenario.train.pre_roll,
+        pre_roll: scenario.train.pre_roll?,
         contact: scenario.contact.clone(),
         track,
-        from: laid.from,
-        bays: laid.bays,
+        from,
+        bays,
         elements_per_bay: laid.elements_per_bay,
         local_compliance: laid.local_compliance,
         on_bridge: supports.iter().map(|(i, _)| *i).collect(),
@@ -130,12 +142,12 @@ pub(crate) fn specs(scenario: &Scenario, resolved: Resolved) -> Option<(TrainTra
         rail_points: laid.points.clone(),
         step: given.step,
         substeps: given.substeps,
-        end: time.end,
+        end,
         newmark: time.newmark,
     };
     if time.step.given().is_none() {
         let steps = Excited::of(&train_track).steps(time.substeps);
-        (train_track.step, train_track.substeps) = (steps.step.min(time.end), steps.substeps);
+        (train_track.step, train_track.substeps) = (steps.step.min(end), steps.substeps);
     }
     let bridge = BridgeSpec {
         structure,
@@ -143,9 +155,9 @@ pub(crate) fn specs(scenario: &Scenario, resolved: Resolved) -> Option<(TrainTra
         modes: bridge.modes,
         reduction: bridge.reduction,
         supports: supports.iter().map(|(_, x)| *x).collect(),
-        points: bridge.points.clone(),
+        points: bridge.points.clone().unwrap_or_default(),
         step: train_track.step,
-        end: time.end,
+        end,
         newmark: time.newmark,
     };
     Some((train_track, bridge))

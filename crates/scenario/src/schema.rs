@@ -3,24 +3,51 @@
 
 use std::sync::LazyLock;
 
-use serde_json::Value;
+use serde_json::{Value, json};
 
+use crate::json::COMMENT;
 use crate::types::{Model, Scenario};
 
 /// Made once, it checks any number of scenarios.
 pub(crate) static SCENARIO: LazyLock<Value> =
     LazyLock::new(|| named(schemars::schema_for!(Scenario), "urn:ttb:scenario", "ttb scenario"));
 
+/// The same of model files.
+pub(crate) static MODEL: LazyLock<Value> =
+    LazyLock::new(|| named(schemars::schema_for!(Model), "urn:ttb:bridge", "ttb finite-element model of a bridge"));
+
 /// The schema of a scenario file.
 #[must_use]
 pub fn schema() -> Value {
-    SCENARIO.clone()
+    with_comments(&SCENARIO)
 }
 
 /// The schema of a bridge's finite-element model in a file of its own.
 #[must_use]
 pub fn model_schema() -> Value {
-    named(schemars::schema_for!(Model), "urn:ttb:bridge", "ttb finite-element model of a bridge")
+    with_comments(&MODEL)
+}
+
+/// As editors need it: every object may also have a comment, which the reader leaves out before the walk.
+fn with_comments(schema: &Value) -> Value {
+    let mut schema = schema.clone();
+    comment(&mut schema);
+    schema
+}
+
+fn comment(schema: &mut Value) {
+    match schema {
+        Value::Object(map) => {
+            map.values_mut().for_each(comment);
+            if map.get("additionalProperties") == Some(&Value::Bool(false))
+                && let Some(Value::Object(properties)) = map.get_mut("properties")
+            {
+                properties.insert(COMMENT.into(), json!({ "description": "For readers of the file; ignored." }));
+            }
+        }
+        Value::Array(list) => list.iter_mut().for_each(comment),
+        _ => {}
+    }
 }
 
 /// Gives a schema its name, from which nothing is fetched, and its title.

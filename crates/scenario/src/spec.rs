@@ -4,9 +4,7 @@ use std::path::PathBuf;
 
 use serde::{Deserialize, Serialize};
 
-use crate::types::{
-    Car, Contact, Damping, Frame, Model, Newmark, Point, RailPoint, Ramp, Reduction, Span, TrackType, Wave,
-};
+use crate::types::{Car, Contact, Damping, Frame, Model, Newmark, Point, RailPoint, Ramp, Reduction, TrackType, Wave};
 
 /// All the train–track subsystem is built from (`resources/train-track.json`).
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -134,6 +132,22 @@ pub struct BridgeSpec {
     pub end: f64,
     /// Newmark's parameters.
     pub newmark: Newmark,
+}
+
+/// One span of a beam bridge.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Span {
+    /// Length of the span, m.
+    pub length: f64,
+    /// Bending stiffness EI, N m².
+    pub bending_stiffness: f64,
+    /// Mass per length, dead loads included, kg/m.
+    pub mass: f64,
+    /// Shear stiffness κGA, N; absent: Euler–Bernoulli, present: Timoshenko.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub shear_stiffness: Option<f64>,
+    /// Number of beam elements.
+    pub elements: usize,
 }
 
 /// What carries, references resolved.

@@ -44,6 +44,41 @@ pub fn distance(points: &[[f64; 2]], t: f64) -> f64 {
     run
 }
 
+/// Over which a random irregularity fades in if the scenario does not say, m.
+pub const DEFAULT_RAMP: f64 = 20.0;
+
+/// Where a random irregularity begins to fade in if the scenario does not say, m: where the pre-roll of a train of this whole
+/// `length` begins, or, without pre-roll, so that it has grown when the train's last wheel stands on it at the start.
+/// `front` is the leading wheel, `wheels` the distance to the last one, m.
+#[must_use]
+pub fn fade_in(front: f64, wheels: f64, length: f64, pre_roll: f64) -> f64 {
+    if pre_roll > 0.0 { front - (pre_roll + length) } else { front - wheels - DEFAULT_RAMP }
+}
+
+/// The time in s after which a train has run `way` m; `None` if it comes to a stop before. A `way` of 0 or less takes no time.
+#[must_use]
+pub fn time_of(points: &[[f64; 2]], way: f64) -> Option<f64> {
+    if way <= 0.0 {
+        return Some(0.0);
+    }
+    let mut run = 0.0;
+    let mut from = 0.0;
+    let later = points.iter().map(|point| point[0]).filter(|time| *time > 0.0);
+    for to in later.chain([f64::INFINITY]) {
+        let (v, length) = (speed_at(points, from), to - from);
+        let acceleration = if to.is_finite() { (speed_at(points, to) - v) / length } else { 0.0 };
+        let part = if to.is_finite() { (v + 0.5 * acceleration * length) * length } else { f64::INFINITY };
+        if run + part >= way {
+            // way − run = v t + a t²/2, in the form that is exact for a = 0 as well
+            let rest = way - run;
+            let t = 2.0 * rest / (v + (v * v + 2.0 * acceleration * rest).max(0.0).sqrt());
+            return Some(from + t).filter(|t| t.is_finite());
+        }
+        (run, from) = (run + part, to);
+    }
+    None
+}
+
 impl TrainTrackSpec {
     /// The abscissae between which wheels are during the pre-roll and the run, m.
     #[must_use]
@@ -79,6 +114,15 @@ mod tests {
         {
             assert_eq!((speed_at(&points, t), distance(&points, t)), (v, run), "t = {t}");
         }
+        // half a second after 1 s: 10 m, and 10 · 0.5 + 5 · 0.5²/2 m
+        for (way, t) in [(0.0, 0.0), (-3.0, 0.0), (10.0, 1.0), (15.625, 1.5), (22.5, 2.0), (47.5, 3.5)] {
+            let found = time_of(&points, way).unwrap();
+            assert!((distance(&points, found) - way.max(0.0)).abs() < 1e-9, "{way}: {found}");
+            assert!(way == 47.5 || (found - t).abs() < 1e-12, "{way}: {found}");
+        }
+        assert_eq!(time_of(&points, 50.1), None);
+        assert_eq!(time_of(&[[0.0, 20.0]], 50.0), Some(2.5));
+        assert_eq!(time_of(&[[0.0, 0.0]], 50.0), None);
         // points before the start count for the speed at the start only
         assert_eq!(distance(&[[-2.0, 0.0], [2.0, 20.0]], 2.0), 30.0);
     }

@@ -25,6 +25,8 @@ pub struct Case {
     pub every: u64,
     /// Whether forces and motions of the supports are kept, too.
     pub supports: bool,
+    /// Between which times peaks count, s; `None`: always.
+    pub peaks: Option<[f64; 2]>,
 }
 
 impl Case {
@@ -40,6 +42,7 @@ impl Case {
             end: checked.train_track.end,
             every: checked.scenario.output.every as u64,
             supports: checked.scenario.output.supports,
+            peaks: Some(checked.peaks),
         }
     }
 

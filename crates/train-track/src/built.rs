@@ -7,7 +7,7 @@ use ttb_dynamics::newmark::Newmark;
 use ttb_dynamics::pool::Pool;
 use ttb_scenario::limits::{MOST_SUBSTEPS, pre_roll_steps};
 use ttb_scenario::spec::TrainTrackSpec;
-use ttb_scenario::travel::wheel_offsets;
+use ttb_scenario::travel::{fade_in, wheel_offsets};
 
 use crate::car::{AXLES, Car};
 use crate::contact::Contacts;
@@ -72,7 +72,8 @@ impl Built {
         for (axle, offset) in offsets.iter().enumerate() {
             on_rail(track, axle, front - offset, 0.0)?;
         }
-        let passage = [front - pre_roll, track.extent().1];
+        let wheels = offsets.last().copied().unwrap_or(0.0);
+        let passage = [fade_in(front, wheels, length, get(Parameter::PreRoll)), track.extent().1];
         let (scale, seed) = (get(Parameter::IrregularityScale), get(Parameter::IrregularitySeed) as u64);
         let irregularity = Irregularity::new(&spec.irregularity, scale, passage, Some(seed));
         let points: Option<Vec<_>> = spec.rail_points.iter().map(|point| track.locate(point.x)).collect();

@@ -5,12 +5,16 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::seconds::positive;
+use super::set::Set;
 
 /// Arguments of `ttb accuracy`.
 #[derive(Debug, Args)]
 pub struct Accuracy {
     /// The scenario file [default: the bundled ICE 3 over a cable-stayed bridge]
     pub scenario: Option<PathBuf>,
+    /// Other values for keys of the scenario
+    #[command(flatten)]
+    pub set: Set,
     /// Folder for the results
     #[arg(short, long, default_value = "ttb-accuracy")]
     pub output: PathBuf,

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 
 use super::seconds::positive;
+use super::set::Set;
 
 pub(super) const HELP: &str = "\
 Without --steps every method runs at its own step, as in the paper: at the scenario's step, and LCM
@@ -21,6 +22,9 @@ Ctrl-C ends the row at hand; the table then has the rows so far.";
 pub struct Compare {
     /// The scenario file [default: the bundled ICE 3 over a cable-stayed bridge]
     pub scenario: Option<PathBuf>,
+    /// Other values for keys of the scenario
+    #[command(flatten)]
+    pub set: Set,
     /// Folder for the results
     #[arg(short, long, default_value = "ttb-compare")]
     pub output: PathBuf,

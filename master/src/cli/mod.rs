@@ -9,6 +9,7 @@ mod generate;
 mod inspect;
 mod run;
 mod seconds;
+mod set;
 
 use std::path::PathBuf;
 
@@ -22,6 +23,7 @@ pub use export_ssp::ExportSsp;
 pub use generate::{Generate, Generated};
 pub use inspect::Inspect;
 pub use run::{Isolate, Run};
+pub use set::Set;
 
 /// Train–track–bridge co-simulation.
 ///
@@ -70,6 +72,9 @@ pub enum Command {
     CheckScenario {
         /// The scenario file
         scenario: PathBuf,
+        /// Other values for keys of the scenario
+        #[command(flatten)]
+        set: Set,
     },
     /// Show what engineers check first of a bridge: mass, reactions, mechanisms, lowest frequencies
     #[command(
@@ -78,6 +83,9 @@ pub enum Command {
     InspectBridge {
         /// A scenario, or a bridge model file
         file: PathBuf,
+        /// Other values for keys of the scenario
+        #[command(flatten)]
+        set: Set,
     },
     /// Test an FMU: does it do what its description and the standard promise?
     #[command(after_help = check::HELP)]

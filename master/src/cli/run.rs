@@ -4,6 +4,8 @@ use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
 
+use super::set::Set;
+
 pub(super) const HELP: &str = "\
 The output folder gets
   results.csv             time, then every output by its FMI name, SI units
@@ -29,6 +31,9 @@ An FMU that crashes ends the program, and results are lost, unless it is isolate
 pub struct Run {
     /// The scenario file, or a system structure of two FMUs, FILE.ssp [default: the bundled ICE 3 over a cable-stayed bridge]
     pub scenario: Option<PathBuf>,
+    /// Other values for keys of the scenario
+    #[command(flatten)]
+    pub set: Set,
     /// Folder for the results
     #[arg(short, long, default_value = "ttb-out")]
     pub output: PathBuf,

@@ -24,7 +24,7 @@ const FILES: [&str; 4] = ["accuracy.md", "accuracy.csv", "accuracy.svg", "accura
 
 /// The command.
 pub fn accuracy(arguments: &Accuracy, stop: &Stop) -> Result<(), Error> {
-    let (checked, _) = decided(arguments.scenario.as_deref())?;
+    let (checked, _) = decided(arguments.scenario.as_deref(), &arguments.set)?;
     let fine = arguments.reference;
     let mut steps = arguments.steps.clone();
     steps.sort_by(|a, b| b.total_cmp(a));

@@ -2,12 +2,13 @@
 
 use std::path::Path;
 
+use crate::cli::Set;
 use crate::error::Error;
 use crate::prepare::fmus;
 
 /// The command.
-pub fn check(scenario: &Path) -> Result<(), Error> {
-    let checked = fmus::scenario(Some(scenario))?;
+pub fn check(scenario: &Path, set: &Set) -> Result<(), Error> {
+    let checked = fmus::scenario(Some(scenario), set)?;
     // What only shows when the bridge's matrices are factorised.
     let remarks = ttb_bridge::inspect::remarks(&checked.bridge).map_err(|e| Error::Input(e.to_string()))?;
     remarks.iter().for_each(|remark| note!("ttb: warning: {remark}"));

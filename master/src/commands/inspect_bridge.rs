@@ -4,17 +4,21 @@ use std::path::Path;
 
 use ttb_bridge::inspect::{inspect as inspect_spec, of_model};
 
+use crate::cli::Set;
 use crate::error::Error;
 use crate::prepare::fmus;
 
 /// The command: of a scenario's bridge, or of a model file.
-pub fn inspect(file: &Path) -> Result<(), Error> {
+pub fn inspect(file: &Path, set: &Set) -> Result<(), Error> {
     let failed = |e: ttb_contract::ModelError| Error::Input(e.to_string());
     let report = if is_model(file) {
+        if !set.set.is_empty() {
+            return Err(Error::Input(format!("--set: {} is a model file and no scenario", file.display())));
+        }
         let model = ttb_scenario::model::load(file).map_err(Error::Scenario)?;
         of_model(&model, &[]).map_err(failed)?
     } else {
-        inspect_spec(&fmus::scenario(Some(file))?.bridge).map_err(failed)?
+        inspect_spec(&fmus::scenario(Some(file), set)?.bridge).map_err(failed)?
     };
     say!("{report}");
     if report.is_sound() { Ok(()) } else { Err(Error::Input(format!("{}: the bridge is not sound", file.display()))) }

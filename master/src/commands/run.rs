@@ -42,7 +42,7 @@ pub fn run(arguments: &Run, stop: &Stop) -> Result<(), Error> {
 }
 
 fn run_scenario(arguments: &Run, isolated: &Isolated, stop: &Stop) -> Result<(), Error> {
-    let mut checked = fmus::scenario(arguments.scenario.as_deref())?;
+    let mut checked = fmus::scenario(arguments.scenario.as_deref(), &arguments.set)?;
     for given in arguments.train_track.iter().chain(&arguments.bridge) {
         std::fs::File::open(given).map_err(|e| Error::Input(format!("{}: {e}", given.display())))?;
     }
@@ -112,6 +112,9 @@ fn warn(warnings: &[String]) {
 }
 
 fn run_system(path: &Path, arguments: &Run, isolated: &Isolated, stop: &Stop) -> Result<(), Error> {
+    if !arguments.set.set.is_empty() {
+        return Err(Error::Input("--set changes a scenario; an .ssp file has its parameters in itself".into()));
+    }
     if arguments.train_track.is_some() || !arguments.bridge.is_empty() {
         return Err(Error::Input(
             "--train-track and --bridge belong to a scenario; an .ssp file names its FMUs itself".into(),
@@ -202,7 +205,7 @@ struct Log {
 
 impl Log {
     fn new(job: &Job) -> Self {
-        let (counted, peaks, timed) = (Iterations::default(), Peaks::default(), Timed::default());
+        let (counted, peaks, timed) = (Iterations::default(), Peaks::between(job.case.peaks), Timed::default());
         Self { counted, peaks, plot: Plot::new(job.scene.clone()), timed, reached: 0.0, ended: 0.0 }
     }
 

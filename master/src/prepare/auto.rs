@@ -19,6 +19,7 @@ use ttb_scenario::step::{Excited, Steps};
 use super::fmus;
 use super::levels::Levels;
 use super::stretch::{self, Seen, Stage};
+use crate::cli::Set;
 use crate::connect::connected::Given;
 use crate::connect::isolate::Isolated;
 use crate::error::Error;
@@ -80,8 +81,8 @@ pub fn choose(
 
 /// As [`fmus::scenario`], with a step that is left to the program chosen; and the bridge, if it was prepared for
 /// that.
-pub fn decided(path: Option<&Path>) -> Result<(Checked, Option<Arc<Prepared>>), Error> {
-    let mut checked = fmus::scenario(path)?;
+pub fn decided(path: Option<&Path>, set: &Set) -> Result<(Checked, Option<Arc<Prepared>>), Error> {
+    let mut checked = fmus::scenario(path, set)?;
     let (_, prepared) = choose(&mut checked, &[], &Isolated::default())?;
     Ok((checked, prepared))
 }

@@ -3,15 +3,17 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use serde_json::Value;
 use ttb_bridge::Bridge;
 use ttb_contract::Model;
 use ttb_fmi::temporary::Temporary;
 use ttb_model_description::package::LIBRARY_EXTENSION;
 use ttb_model_description::{About, Contents, Date, pack};
-use ttb_scenario::Checked;
+use ttb_scenario::{Checked, Chosen};
 use ttb_session::Sides;
 use ttb_train_track::TrainTrack;
 
+use crate::cli::Set;
 use crate::error::Error;
 use crate::files::whole;
 
@@ -45,17 +47,42 @@ const BRIDGE: Kind = Kind {
                   dead-load state.",
 };
 
-/// Loads and checks the scenario, the bundled one if none is named; prints its warnings.
-pub fn scenario(path: Option<&Path>) -> Result<Checked, Error> {
+/// Loads and checks the scenario, the bundled one if none is named, with other values for some keys; prints what was chosen
+/// for keys that are left out, and its warnings.
+pub fn scenario(path: Option<&Path>, set: &Set) -> Result<Checked, Error> {
     let checked = match path {
-        Some(path) => ttb_scenario::load(path),
-        None => ttb_scenario::from_str(ttb_scenario::default_scenario_text(), Path::new(""), "the bundled scenario"),
+        Some(path) => ttb_scenario::load_with(path, &set.set),
+        None => {
+            let text = ttb_scenario::default_scenario_text();
+            ttb_scenario::from_str_with(text, Path::new(""), "the bundled scenario", &set.set)
+        }
     };
     let checked = checked.map_err(Error::Scenario)?;
+    if let Some(text) = chosen(&checked.chosen) {
+        note!("ttb: chosen: {text}");
+    }
     for warning in &checked.warnings {
         note!("ttb: warning: {warning}");
     }
     Ok(checked)
+}
+
+/// What was chosen, in a line; nothing of a scenario that leaves out no more than the time of free vibration.
+fn chosen(chosen: &[Chosen]) -> Option<String> {
+    if chosen.iter().all(|chosen| chosen.key == "time.free_vibration") {
+        return None;
+    }
+    let one = |Chosen { key, value, unit, why }: &Chosen| {
+        let value = match value {
+            Value::Array(list) => list.iter().map(Value::to_string).collect::<Vec<_>>().join(" "),
+            Value::Number(x) => x.as_f64().map_or_else(|| x.to_string(), |x| format!("{}", (x * 1e6).round() / 1e6)),
+            Value::String(text) => text.clone(),
+            other => other.to_string(),
+        };
+        let unit = if unit.is_empty() { String::new() } else { format!(" {unit}") };
+        format!("\n  {key} = {value}{unit} ({why})")
+    };
+    Some(chosen.iter().map(one).collect())
 }
 
 /// Writes TrainTrack.fmu and Bridge.fmu into `folder`; `ready` is the bridge, if it is prepared already.

@@ -6,8 +6,10 @@ use ttb_contract::finite::{larger, smaller};
 use ttb_coupling::IterationError;
 use ttb_fmi::temporary::Temporary;
 use ttb_scenario::Checked;
+use ttb_scenario::spec::Profile;
 use ttb_scenario::step::Steps;
-use ttb_scenario::travel;
+use ttb_scenario::travel::{self, DEFAULT_RAMP};
+use ttb_scenario::types::{Ramp, RampShape};
 use ttb_session::{Case, Column, Coupled, Plan, Quantity, RunError, Table, drive};
 
 use super::fmus;
@@ -17,7 +19,6 @@ use crate::error::Error;
 
 /// The distance, m: bridge and fading in of the irregularity, but no more and no less than this.
 const DISTANCE: [f64; 2] = [40.0, 60.0];
-const FADE_IN: f64 = 20.0;
 /// Of a train that stands, s.
 const STANDING: f64 = 0.2;
 
@@ -50,12 +51,16 @@ pub fn stretch(checked: &Checked) -> Checked {
     let speed = spec.speed.iter().map(|point| point[1]).fold(0.0, f64::max);
     let end = spec.front_wheel + travel::distance(&spec.speed, spec.end);
     let supports = &checked.bridge.supports;
-    let wanted = (supports.last().copied().unwrap_or(0.0) + FADE_IN).clamp(DISTANCE[0], DISTANCE[1]);
+    let wanted = (supports.last().copied().unwrap_or(0.0) + DEFAULT_RAMP).clamp(DISTANCE[0], DISTANCE[1]);
     // The train cannot begin before it does, nor go farther than it goes.
     let begin = if bridge.at < end { spec.front_wheel.max(bridge.at) } else { spec.front_wheel };
     let distance = wanted.min(end - begin);
     spec.end = if speed > 0.0 { (distance / speed).min(spec.end) } else { STANDING.min(spec.end) };
     (spec.front_wheel, spec.pre_roll, spec.speed) = (begin, 0.0, vec![[0.0, speed]]);
+    // It begins at rest, and so does the irregularity.
+    if let Profile::Spectrum { ramp: ramp @ None, .. } = &mut spec.irregularity {
+        *ramp = Some(Ramp { start: begin, length: DEFAULT_RAMP, shape: RampShape::Quintic });
+    }
     short.bridge.end = spec.end;
     short
 }

@@ -1,8 +1,8 @@
 //! What a run needs to know beside its two FMUs, whether it comes from a scenario or from a system structure.
 
 use sha2::{Digest, Sha256};
-use ttb_scenario::Checked;
 use ttb_scenario::spec::Profile;
+use ttb_scenario::{Checked, Chosen};
 use ttb_session::Case;
 
 use super::choice::Choice;
@@ -18,6 +18,8 @@ pub struct Job {
     pub origin: Origin,
     /// Seed of a random irregularity, where it is known.
     pub irregularity_seed: Option<u64>,
+    /// What the scenario leaves out and was chosen.
+    pub chosen: Vec<Chosen>,
     /// Why the steps are as they are, if they were left to the program.
     pub choice: Option<Choice>,
     /// What a picture needs to know.
@@ -53,6 +55,7 @@ impl Job {
                 Profile::Spectrum { seed, .. } => Some(seed),
                 _ => None,
             },
+            chosen: checked.chosen.clone(),
             choice,
             scene: Scene::new(checked),
             provenance,
@@ -76,6 +79,7 @@ impl Job {
         let Options { preload, probe, .. } = options;
         let run =
             (self.case.step, self.case.substeps, self.case.end, &self.choice, self.case.every, self.case.supports);
+        let run = (run, self.case.peaks);
         let all = (env!("CARGO_PKG_VERSION"), self.origin.hash(), run, inputs, preload, probe);
         // Numbers, texts and lists: there is nothing that cannot be written as JSON.
         hexadecimal(&Sha256::digest(serde_json::to_vec(&all).unwrap_or_default()))

@@ -5,6 +5,7 @@ use std::path::Path;
 
 use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::{Serialize, Serializer};
+use ttb_scenario::Chosen;
 use ttb_session::observe::{ContactLoss, Iterations, Peaks};
 
 use super::choice::Choice;
@@ -74,6 +75,9 @@ pub struct Summary<'a> {
     pub step_s: f64,
     /// Internal steps of train and track in each.
     pub substeps: usize,
+    /// Keys that the scenario leaves out, and what was chosen for them.
+    #[serde(skip_serializing_if = "<[Chosen]>::is_empty")]
+    pub chosen: &'a [Chosen],
     /// Why the steps are these, if they were left to the program.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub step_choice: Option<&'a Choice>,
@@ -94,6 +98,9 @@ pub struct Summary<'a> {
     pub warnings: Vec<String>,
     /// Wheels that lost contact.
     pub contact_losses: Vec<ContactLoss>,
+    /// Between which times peaks count, s; absent: at all times.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub peaks_between_s: Option<[f64; 2]>,
     /// Extremes of every recorded variable by its column's name, in the order of the columns.
     pub peaks: Named,
 }
@@ -185,6 +192,7 @@ impl<'a> Summary<'a> {
             versions: Versions { ttb: env!("CARGO_PKG_VERSION"), fmi: "2.0" },
             step_s: job.case.step,
             substeps: job.case.substeps,
+            chosen: &job.chosen,
             step_choice: job.choice.as_ref(),
             end_s: job.case.end,
             reached_s: reached,
@@ -194,6 +202,7 @@ impl<'a> Summary<'a> {
             times_faster_than_real_time: if stepping > 0.0 { reached / stepping } else { 0.0 },
             warnings,
             contact_losses: shown.peaks.map(Peaks::contact_losses).unwrap_or_default(),
+            peaks_between_s: job.case.peaks,
             peaks: Named(peaks),
         }
     }

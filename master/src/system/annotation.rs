@@ -28,6 +28,8 @@ pub struct Settings {
     pub train_track: Option<String>,
     /// Results.
     pub output: Output,
+    /// Between which times peaks count, s; `None`: always.
+    pub peaks: Option<[f64; 2]>,
     /// The iteration.
     pub coupling: CouplingSettings,
     /// Where the annotation stands in the document.
@@ -42,6 +44,7 @@ impl Default for Settings {
             force_scale: FORCE_SCALE,
             train_track: None,
             output: Output::default(),
+            peaks: None,
             coupling: CouplingSettings::default(),
             place: String::new(),
         }
@@ -62,6 +65,9 @@ pub fn write(settings: &Settings) -> Vec<Annotation> {
     }
     attributes.push(("output_every".into(), settings.output.every.to_string()));
     attributes.push(("output_supports".into(), settings.output.supports.to_string()));
+    for (key, time) in ["peaks_from", "peaks_until"].iter().zip(settings.peaks.iter().flatten()) {
+        attributes.push((key.to_string(), format!("{time:?}")));
+    }
     let ours = Annotation {
         kind: KIND.into(),
         prefix: "ttb".into(),
@@ -129,7 +135,13 @@ fn set(settings: &mut Settings, coupling: &mut Map<String, Value>, key: &str, te
         let count = text.trim().parse().ok().filter(|count| *count > 0);
         count.ok_or_else(|| format!("must be a whole number from 1: {text:?}"))
     };
+    let time = || {
+        let value = text.trim().parse().ok().filter(|x: &f64| *x >= 0.0 && x.is_finite());
+        value.ok_or_else(|| format!("must be a time in s: {text:?}"))
+    };
     match key {
+        "peaks_from" => settings.peaks = Some([time()?, settings.peaks.map_or(f64::INFINITY, |[_, to]| to)]),
+        "peaks_until" => settings.peaks = Some([settings.peaks.map_or(0.0, |[from, _]| from), time()?]),
         "train_track" => settings.train_track = Some(text.to_string()),
         "step" => settings.step = Some(positive()?),
         "force_scale" => settings.force_scale = positive()?,
@@ -152,7 +164,16 @@ fn setting(key: &str, text: &str) -> Result<Value, String> {
     let schema = ttb_scenario::schema();
     let known = &schema["$defs"]["CouplingSettings"]["properties"];
     let Some(rule) = known.get(key) else {
-        let own = ["train_track", "step", "substeps", "force_scale", "output_every", "output_supports"];
+        let own = [
+            "train_track",
+            "step",
+            "substeps",
+            "force_scale",
+            "output_every",
+            "output_supports",
+            "peaks_from",
+            "peaks_until",
+        ];
         let names: Vec<&str> =
             known.as_object().into_iter().flat_map(Map::keys).map(String::as_str).chain(own).collect();
         return Err(format!("is no setting; there are {}", names.join(", ")));
@@ -184,6 +205,7 @@ mod tests {
         let mut settings = Settings { step: Some(0.1 + 0.2), train_track: Some("Zug".into()), ..Settings::default() };
         settings.coupling.tolerance = 1e-9 / 3.0;
         (settings.coupling.max_iterations, settings.output.supports, settings.substeps) = (7, true, 12);
+        settings.peaks = Some([0.1, 2.0 / 3.0]);
         let written = write(&settings);
         let mut report = Report::new("a.ssp");
         assert_eq!(read(&written, &mut report), settings);

@@ -27,7 +27,7 @@ const COMPONENTS: [(&str, [f64; 4]); 2] =
 
 /// The command; returns the archive's path.
 pub fn export(arguments: &ExportSsp) -> Result<PathBuf, Error> {
-    let (checked, prepared) = decided(arguments.scenario.as_deref())?;
+    let (checked, prepared) = decided(arguments.scenario.as_deref(), &arguments.set)?;
     let text = match &arguments.scenario {
         Some(path) => std::fs::read_to_string(path).map_err(Error::io(path))?,
         None => ttb_scenario::default_scenario_text().to_string(),
@@ -75,6 +75,7 @@ fn structure(checked: &Checked, [train_track, bridge]: &[ModelDescription; 2]) -
         force_scale: checked.axle_load,
         train_track: Some(COMPONENTS[0].0.into()),
         output: checked.scenario.output,
+        peaks: Some(checked.peaks),
         coupling: checked.scenario.coupling,
         place: String::new(),
     };

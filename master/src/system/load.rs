@@ -82,11 +82,13 @@ impl Opened {
             end,
             every: settings.output.every as u64,
             supports: settings.output.supports,
+            peaks: settings.peaks.map(|times| times.map(|time| time.min(end))),
         };
         let job = Job {
             case,
             origin: Origin::System(sha256(path)?),
             irregularity_seed: None,
+            chosen: Vec::new(),
             choice: None,
             scene: Scene::default(),
             provenance: Provenance::default(),

@@ -4,10 +4,9 @@
 use ttb_bridge::Bridge;
 use ttb_contract::{Instance, Model};
 use ttb_generate::simple_span;
-use ttb_scenario::spec::{BridgeSpec, StructureSpec};
+use ttb_scenario::spec::{BridgeSpec, Span, StructureSpec};
 use ttb_scenario::types::{
-    Damping, Fixity, Frame, Member, MemberKind, Model as Elements, Newmark, Node, Point, RayleighAt, Section, Span,
-    Springs,
+    Damping, Fixity, Frame, Member, MemberKind, Model as Elements, Newmark, Node, Point, RayleighAt, Section, Springs,
 };
 
 /// A span of a simple beam.

@@ -5,6 +5,7 @@ use crate::pieces::Pieces;
 use crate::problem::Report;
 use crate::resolve::Resolved;
 use crate::spec::Profile;
+use crate::travel::DEFAULT_RAMP;
 
 /// Closer to its end than this, m, a rail bends like a free end.
 const MARGIN: f64 = 12.0;
@@ -13,13 +14,16 @@ const LONG_STEP: f64 = 2e-3;
 /// A wave needs this many rail elements.
 const ELEMENTS_PER_WAVE: f64 = 4.0;
 
-pub(super) fn give(
-    pieces: &Pieces,
-    resolved: &Resolved,
-    rail: Option<&Rail>,
-    passage: Option<&Passage>,
-    report: &mut Report,
-) {
+/// Where everything is, as far as it is known.
+pub(super) struct Places<'a> {
+    pub rail: Option<&'a Rail>,
+    pub passage: Option<&'a Passage>,
+    /// Begin and end of the bridge, m.
+    pub bridge: Option<[f64; 2]>,
+}
+
+pub(super) fn give(pieces: &Pieces, resolved: &Resolved, places: &Places, report: &mut Report) {
+    let Places { rail, passage, bridge } = *places;
     if let Some(step) = pieces.time.and_then(|time| time.step.given()).filter(|step| *step > LONG_STEP) {
         report.warn(format!("step {step} s: more than {LONG_STEP} s costs accuracy in accelerations"));
     }
@@ -29,6 +33,9 @@ pub(super) fn give(
     }
     if let (Some(rail), Some(profile)) = (rail, &resolved.profile) {
         waves(rail, profile, report);
+    }
+    if let (Some(passage), Some(bridge), Some(profile)) = (passage, bridge, &resolved.profile) {
+        fade_in(profile, passage, bridge, report);
     }
     if let (Some(passage), Some(Profile::Samples { x, .. })) = (passage, &resolved.profile) {
         let (from, to) = (passage.rear - passage.pre_roll, passage.end);
@@ -45,6 +52,24 @@ pub(super) fn give(
 fn margin(margin: f64, verb: &str, place: &str, report: &mut Report) {
     if (0.0..MARGIN).contains(&margin) {
         report.warn(format!("the rail {verb} {margin:.1} m {place}: its free end is felt within {MARGIN} m"));
+    }
+}
+
+/// An irregularity that is still growing under the wheels on the bridge is neither smooth nor its full size.
+fn fade_in(profile: &Profile, passage: &Passage, [begin, end]: [f64; 2], report: &mut Report) {
+    let (ramp, default) = match profile {
+        Profile::None => return,
+        Profile::Waves { ramp, .. } | Profile::Samples { ramp, .. } => (ramp, None),
+        Profile::Spectrum { ramp, .. } => (ramp, Some([passage.fade_in(), DEFAULT_RAMP])),
+    };
+    let Some([start, length]) = ramp.as_ref().map(|ramp| [ramp.start, ramp.length]).or(default) else { return };
+    if start < end && start + length > begin {
+        report.warn(format!(
+            "the irregularity grows to its size from {start:.1} to {:.1} m, on the bridge from {begin} to {end} m: begin it at \
+             {:.1} m or before",
+            start + length,
+            begin - length
+        ));
     }
 }
 

@@ -12,11 +12,12 @@ mod run;
 pub(crate) use run::chosen_steps;
 
 use crate::pieces::Pieces;
+use crate::place::Placement;
 use crate::problem::Report;
 use crate::resolve::Resolved;
 
 /// Reports every broken rule, and as warnings what is allowed but rarely meant.
-pub(crate) fn check(pieces: &Pieces, resolved: &Resolved, report: &mut Report) {
+pub(crate) fn check(pieces: &Pieces, resolved: &Resolved, placed: &Placement, report: &mut Report) {
     run::cars(&pieces.cars, report);
     if let Some(speed) = &pieces.speed {
         run::speed(speed, report);
@@ -28,12 +29,12 @@ pub(crate) fn check(pieces: &Pieces, resolved: &Resolved, report: &mut Report) {
         run::irregularity(irregularity, report);
     }
     if let Some(time) = &pieces.time {
-        run::time(time, report);
+        run::time(time, placed.end, report);
         run::substeps(time, pieces.coupling.as_ref(), report);
     }
     if let Some(newmark) = &pieces.newmark {
         run::newmark(newmark, report);
     }
     bridge::check(pieces, resolved, report);
-    layout::check(pieces, resolved, report);
+    layout::check(pieces, resolved, placed, report);
 }

@@ -6,6 +6,8 @@ pub(super) struct Rail {
     pub from: f64,
     /// Abscissa of the last support, m.
     pub to: f64,
+    /// Bays between them.
+    pub bays: usize,
     /// Distance of the supports, m.
     pub spacing: f64,
     /// Length of an element, m.
@@ -22,4 +24,16 @@ pub(super) struct Passage {
     pub end: f64,
     /// Pre-roll, m.
     pub pre_roll: f64,
+    /// Length of all cars, m.
+    pub length: f64,
+    /// Whether the scenario says where the train starts, and when it ends.
+    pub start_given: bool,
+    pub end_given: bool,
+}
+
+impl Passage {
+    /// Where a random irregularity without ramp begins to grow, m.
+    pub fn fade_in(&self) -> f64 {
+        crate::travel::fade_in(self.front, self.front - self.rear, self.length, self.pre_roll)
+    }
 }

@@ -55,19 +55,20 @@ pub(super) fn irregularity(irregularity: &Irregularity, report: &mut Report) {
     }
 }
 
-pub(super) fn time(time: &Time, report: &mut Report) {
+/// `end` is the run's, given or chosen.
+pub(super) fn time(time: &Time, end: Option<f64>, report: &mut Report) {
     let Some(step) = time.step.given() else { return };
-    if step > time.end {
-        report.problem("$.time.step", "the step must not be longer than the run", format!("{step} > {} s", time.end));
+    if let Some(end) = end.filter(|end| step > *end) {
+        report.problem("$.time.step", "the step must not be longer than the run", format!("{step} > {end} s"));
     }
     // What is not above 0 has been reported.
-    if step > 0.0 && time.end > 0.0 {
+    if let Some(end) = end.filter(|end| step > 0.0 && *end > 0.0) {
         let part = step / time.substeps.unwrap_or(1).max(1) as f64;
         if part < STEP[0] || step > STEP[1] {
             let rule = format!("steps and sub-steps must lie between {:e} and {} s", STEP[0], STEP[1]);
             report.problem("$.time.step", rule, format!("{part:e} s"));
         }
-        if let Err(exceeded) = steps(time.end, step) {
+        if let Err(exceeded) = steps(end, step) {
             report.problem("$.time.step", exceeded.rule, exceeded.found);
         }
     }

@@ -18,7 +18,8 @@ pub enum Damping {
         /// Damping ratio ζ, of 1.
         #[schemars(range(min = 0, max = 1))]
         ratio: f64,
-        /// The two frequencies.
+        /// The two frequencies; absent: the first and four times it.
+        #[serde(default)]
         at: RayleighAt,
     },
     /// The same ratio in the lowest modes, nothing in the others.
@@ -42,6 +43,12 @@ pub enum RayleighAt {
     Modes([usize; 2]),
     /// The first frequency and this multiple of it.
     FirstTimes(#[schemars(extend("exclusiveMinimum" = 1))] f64),
+}
+
+impl Default for RayleighAt {
+    fn default() -> Self {
+        Self::FirstTimes(4.0)
+    }
 }
 
 /// What a name that becomes part of a variable's name looks like.
@@ -96,9 +103,14 @@ pub struct Span {
     /// Length of the span, m.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub length: f64,
-    /// Bending stiffness EI, N m².
+    /// Bending stiffness EI, N m²; absent: by `first_frequency`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(extend("exclusiveMinimum" = 0))]
-    pub bending_stiffness: f64,
+    pub bending_stiffness: Option<f64>,
+    /// First natural frequency n₀ of a simply supported span, Hz, in place of its bending stiffness.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub first_frequency: Option<f64>,
     /// Mass per length, dead loads included, kg/m.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub mass: f64,
@@ -106,9 +118,10 @@ pub struct Span {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub shear_stiffness: Option<f64>,
-    /// Number of beam elements.
+    /// Number of beam elements; absent: 50.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 2, max = 100000))]
-    pub elements: usize,
+    pub elements: Option<usize>,
 }
 
 /// What carries.
@@ -124,6 +137,11 @@ pub enum Structure {
         /// One continuous beam.
         #[serde(default)]
         continuous: bool,
+        /// First natural frequency n₀ of a continuous beam, Hz: the bending stiffnesses of its spans, 1 where none is
+        /// given, are multiplied so that it has this frequency.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        #[schemars(extend("exclusiveMinimum" = 0))]
+        first_frequency: Option<f64>,
     },
     /// A plane frame with trusses and cables.
     Frame {
@@ -181,14 +199,15 @@ impl Default for Reduction {
 #[schemars(deny_unknown_fields)]
 pub struct Bridge {
     /// Abscissa of its begin (first abutment line), m.
+    #[serde(default)]
     pub at: f64,
     /// What carries.
     pub structure: Structure,
     /// Damping of the bridge.
     pub damping: Damping,
-    /// Points whose motion is recorded.
-    #[serde(default)]
-    pub points: Vec<Point>,
+    /// Points whose motion is recorded; absent: the middle of every span of beams.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub points: Option<Vec<Point>>,
     /// Where the track's supports over inner bearings go.
     #[serde(default)]
     pub over_bearings: OverBearings,

@@ -11,7 +11,7 @@ use super::track::Track;
 use super::train::{Contact, Train};
 
 /// What goes into results.csv.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[schemars(deny_unknown_fields)]
 #[serde(default)]
 pub struct Output {
@@ -20,11 +20,47 @@ pub struct Output {
     pub every: usize,
     /// Also the force, displacement and velocity of every support.
     pub supports: bool,
+    /// From when on peaks count: `bridge` (default), `start`, or a time in s.
+    pub peaks_from: PeaksFrom,
+}
+
+/// From when on peaks count.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(untagged)]
+pub enum PeaksFrom {
+    /// As the word says.
+    Word(PeaksWord),
+    /// From this time to the end of the run, s.
+    Seconds(f64),
+}
+
+/// A moment by its name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum PeaksWord {
+    /// From the first wheel on the bridge until the free vibration after the last one has ended.
+    Bridge,
+    /// The whole run.
+    Start,
+}
+
+impl JsonSchema for PeaksFrom {
+    fn schema_name() -> std::borrow::Cow<'static, str> {
+        "PeaksFrom".into()
+    }
+    fn json_schema(_: &mut schemars::SchemaGenerator) -> schemars::Schema {
+        schemars::json_schema!({ "description": "From when on peaks count.", "anyOf": [
+            { "type": "string", "const": "bridge",
+              "description": "From the first wheel on the bridge until time.free_vibration after the last has left it." },
+            { "type": "string", "const": "start", "description": "The whole run." },
+            { "type": "number", "minimum": 0, "description": "From this time to the end of the run, s." },
+        ] })
+    }
 }
 
 impl Default for Output {
     fn default() -> Self {
-        Self { every: 1, supports: false }
+        Self { every: 1, supports: false, peaks_from: PeaksFrom::Word(PeaksWord::Bridge) }
     }
 }
 
@@ -43,14 +79,16 @@ pub struct Scenario {
     /// Wheel–rail contact.
     #[serde(default)]
     pub contact: Contact,
-    /// The track.
+    /// The track; absent: a slab track as long as the run needs.
+    #[serde(default)]
     pub track: Track,
     /// Track irregularity.
     #[serde(default)]
     pub irregularity: Irregularity,
     /// The bridge.
     pub bridge: Bridge,
-    /// Time axis.
+    /// Time axis; absent: steps of 1 ms until the free vibration after the passage has ended.
+    #[serde(default)]
     pub time: Time,
     /// The iteration.
     #[serde(default)]

@@ -66,22 +66,41 @@ impl JsonSchema for Step {
 /// Time axis.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[schemars(deny_unknown_fields)]
+#[serde(default)]
 pub struct Time {
-    /// Macro step h, s, or `auto`.
+    /// Macro step h, s, or `auto`; absent: 1 ms.
     pub step: Step,
     /// Internal steps of train and track in each of them. More than one: the bridge moves under their mean forces, train
     /// and track on its motion interpolated (multi-time-step). Absent: 1, or chosen with the step.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 1, max = 1000))]
     pub substeps: Option<usize>,
     /// With `auto`: greatest estimated error of a peak, relative to the greatest of its kind; absent: 0.02.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("exclusiveMinimum" = 0), range(max = 1))]
     pub error: Option<f64>,
-    /// End of the run, s; the last step is shortened to hit it.
+    /// End of the run, s; the last step is shortened to hit it; absent: the end of the free vibration.
+    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("exclusiveMinimum" = 0))]
-    pub end: f64,
+    pub end: Option<f64>,
+    /// How long the bridge is watched after the last wheel has left it, s; absent: until damping has halved its first mode,
+    /// from 2 to 20 periods and at most 10 s.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0, max = 1000))]
+    pub free_vibration: Option<f64>,
     /// Newmark's parameters.
-    #[serde(default)]
     pub newmark: Newmark,
+}
+
+impl Default for Time {
+    fn default() -> Self {
+        Self {
+            step: Step::Seconds(1e-3),
+            substeps: None,
+            error: None,
+            end: None,
+            free_vibration: None,
+            newmark: Newmark::default(),
+        }
+    }
 }

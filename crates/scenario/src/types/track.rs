@@ -109,15 +109,17 @@ pub enum TrackChoice {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[schemars(deny_unknown_fields)]
 pub struct Track {
-    /// Rail, supports, spacing.
-    #[serde(rename = "type")]
+    /// Rail, supports, spacing; absent: `slab`.
+    #[serde(rename = "type", default)]
     pub kind: TrackChoice,
-    /// Abscissa of the first support, m.
-    #[serde(default)]
-    pub from: f64,
-    /// Number of support bays.
+    /// Abscissa of the first support, m; absent: 0 where `bays` and `front_wheel` are given, else so that the whole train
+    /// stands on the rail at the start.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub from: Option<f64>,
+    /// Number of support bays; absent: so that the rail bears the train until the end of the run.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 2, max = 1000000))]
-    pub bays: usize,
+    pub bays: Option<usize>,
     /// Rail elements per bay.
     #[serde(default = "two")]
     #[schemars(range(min = 1, max = 20))]
@@ -139,6 +141,25 @@ pub struct RailPoint {
     pub name: String,
     /// Abscissa, m.
     pub x: f64,
+}
+
+impl Default for TrackChoice {
+    fn default() -> Self {
+        Self::Bundled("slab".into())
+    }
+}
+
+impl Default for Track {
+    fn default() -> Self {
+        Self {
+            kind: TrackChoice::default(),
+            from: None,
+            bays: None,
+            elements_per_bay: two(),
+            local_compliance: yes(),
+            points: Vec::new(),
+        }
+    }
 }
 
 fn two() -> usize {

@@ -85,15 +85,17 @@ pub struct Train {
     /// Cars, the leading one first.
     #[schemars(length(min = 1))]
     pub cars: Vec<CarChoice>,
-    /// Abscissa of the leading wheel at the start, m.
-    pub front_wheel: f64,
+    /// Abscissa of the leading wheel at the start, m; absent: half a second's run before the bridge, at least 20 m.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub front_wheel: Option<f64>,
     /// Train speed.
     pub speed: Speed,
     /// Distance in m over which the cars alone are rolled over the irregularity, on the track's static stiffness,
-    /// before the run starts, so that they do not ring from a start at rest; 0: start at rest.
-    #[serde(default)]
+    /// before the run starts, so that they do not ring from a start at rest; 0: start at rest; absent: what the train runs
+    /// in five seconds where the rail is irregular, else 0.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0, max = 10000))]
-    pub pre_roll: f64,
+    pub pre_roll: Option<f64>,
 }
 
 /// Law of the wheel–rail contact.

@@ -90,7 +90,7 @@ mod tests {
     use super::samples::samples;
     use super::walk;
     use crate::problem::Report;
-    use crate::schema::{model_schema, schema};
+    use crate::schema::{MODEL, SCENARIO};
     use crate::types::{Model, NAME_PATTERN, Scenario};
 
     const UNDERSTOOD: &str = "$ref oneOf anyOf const enum type properties required additionalProperties items \
@@ -142,13 +142,13 @@ mod tests {
 
     #[test]
     fn every_value_that_the_schemas_document_is_accepted() {
-        all_documented_values_are_accepted::<Scenario>(&schema());
-        all_documented_values_are_accepted::<Model>(&model_schema());
+        all_documented_values_are_accepted::<Scenario>(&SCENARIO);
+        all_documented_values_are_accepted::<Model>(&MODEL);
     }
 
     #[test]
     fn the_schema_has_no_keyword_that_the_walker_does_not_know() {
-        let schemas = serde_json::json!({ "anyOf": [schema(), model_schema()] });
+        let schemas = serde_json::json!({ "anyOf": [&*SCENARIO, &*MODEL] });
         let mut found = BTreeSet::new();
         keywords(&schemas, &mut found);
         let known: BTreeSet<String> =

@@ -56,9 +56,12 @@ pub struct ContactLoss {
     pub longest: f64,
 }
 
-/// Collects extremes over a run.
+/// Collects extremes over a run, or between two times of it; losses of contact and values that are not finite over the whole
+/// run.
 #[derive(Default)]
 pub struct Peaks {
+    /// Between which times extremes count, s; `None`: always.
+    between: Option<[f64; 2]>,
     peaks: Vec<Peak>,
     /// Column of the position that belongs to a column, for wheels.
     positions: Vec<Option<usize>>,
@@ -72,7 +75,23 @@ struct Contact {
     lost_for: Option<f64>,
 }
 
+/// Times within this of an end of the interval, relative to its size, are in it.
+const ROUNDING: f64 = 1e-9;
+
 impl Peaks {
+    /// Of what happens between two times, s, both included.
+    pub fn between(times: Option<[f64; 2]>) -> Self {
+        Self { between: times, ..Self::default() }
+    }
+
+    fn counts(&self, time: f64) -> bool {
+        let within = |[from, to]: [f64; 2]| {
+            let slack = ROUNDING * to.abs().max(1.0);
+            (from - slack..=to + slack).contains(&time)
+        };
+        self.between.is_none_or(within)
+    }
+
     /// All extremes in column order.
     pub fn all(&self) -> &[Peak] {
         &self.peaks
@@ -123,10 +142,13 @@ impl Observer for Peaks {
     }
 
     fn step(&mut self, moment: &Moment) -> Result<ControlFlow<()>, RunError> {
-        let (row, time) = (moment.row, moment.t);
+        let (row, time, counts) = (moment.row, moment.t, self.counts(moment.t));
         for ((peak, position), value) in self.peaks.iter_mut().zip(&self.positions).zip(row) {
             if !value.is_finite() {
                 peak.not_finite_from.get_or_insert(time);
+                continue;
+            }
+            if !counts {
                 continue;
             }
             let here = || Extreme { value: *value, time, x: position.map(|p| row[p]) };
@@ -149,8 +171,12 @@ mod tests {
     use crate::observe::Timing;
 
     fn observe(names: &[&str], rows: &[&[f64]]) -> Peaks {
+        observe_between(None, names, rows)
+    }
+
+    fn observe_between(times: Option<[f64; 2]>, names: &[&str], rows: &[&[f64]]) -> Peaks {
         let columns: Vec<Column> = names.iter().map(|name| Column::parse(name, "N")).collect();
-        let (mut peaks, axis) = (Peaks::default(), TimeAxis::new(0.5, 0.5 * (rows.len() - 1) as f64));
+        let (mut peaks, axis) = (Peaks::between(times), TimeAxis::new(0.5, 0.5 * (rows.len() - 1) as f64));
         peaks.start(&Begin { columns: &columns, axis: &axis }).expect("columns");
         for (n, row) in rows.iter().enumerate() {
             let (t, h) = (0.5 * n as f64, if n == 0 { 0.0 } else { 0.5 });
@@ -170,6 +196,17 @@ mod tests {
         let twice = loss(&[&[0.0], &[1.0], &[0.0], &[0.0]]);
         assert_eq!((twice[0].intervals, twice[0].seconds, twice[0].longest), (2, 1.0, 1.0));
         assert!(loss(&[&[1.0], &[1.0]]).is_empty());
+    }
+
+    #[test]
+    fn extremes_count_between_two_times_and_contact_always() {
+        let names = ["wheel[1].contact_force", "point[mid].acceleration"];
+        let rows: [&[f64]; 5] = [&[0.0, 9.0], &[3.0, 1.0], &[5.0, 2.0], &[4.0, -1.0], &[8.0, f64::NAN]];
+        let peaks = observe_between(Some([0.5, 1.5]), &names, &rows);
+        let [force, point] = peaks.all() else { panic!("two columns") };
+        assert_eq!([force.min.value, force.max.value, point.min.value, point.max.value], [3.0, 5.0, -1.0, 2.0]);
+        assert_eq!([force.min.time, force.max.time, point.min.time, point.max.time], [0.5, 1.0, 1.5, 1.0]);
+        assert_eq!((peaks.contact_losses().len(), point.not_finite_from), (1, Some(2.0)));
     }
 
     #[test]

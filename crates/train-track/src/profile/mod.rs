@@ -8,13 +8,11 @@ mod samples;
 use std::f64::consts::{PI, TAU};
 
 use ttb_scenario::spec::Profile;
+use ttb_scenario::travel::DEFAULT_RAMP;
 use ttb_scenario::types::{Ramp, RampShape, Wave};
 
 use random::Table;
 use samples::Samples;
-
-/// Over which a random irregularity fades in if the scenario does not say, m.
-const DEFAULT_RAMP: f64 = 20.0;
 
 /// An irregularity, ready to be evaluated.
 #[derive(Clone, Debug)]

@@ -24,7 +24,7 @@ const HISTORIES: &str = "histories.csv";
 
 /// The command.
 pub fn compare(arguments: &Compare, stop: &Stop) -> Result<(), Error> {
-    let (checked, _) = decided(arguments.scenario.as_deref())?;
+    let (checked, _) = decided(arguments.scenario.as_deref(), &arguments.set)?;
     let watched = Watched::new(&checked, arguments.point.as_deref(), arguments.car, arguments.wheel)?;
     let folder = Folder::claim(&arguments.output, stop)?;
     let mut bench = Bench { checked: &checked, watched, budget: f64::INFINITY, stop, quiet: arguments.quiet };
