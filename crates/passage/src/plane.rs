@@ -17,8 +17,8 @@ use ttb_bridge::deck::{Deck, Row};
 use ttb_bridge::mesh::Mesh;
 use ttb_contract::ModelError;
 use ttb_dynamics::frame::Row6;
-use ttb_scenario::spec::{BridgeSpec, StructureSpec};
-use ttb_scenario::types::{Direction, Point, Span};
+use ttb_scenario::spec::{BridgeSpec, Span, StructureSpec};
+use ttb_scenario::types::{Direction, Point};
 use ttb_sparse::{Factor, Pencil};
 
 use crate::lines::Lines;

@@ -3,8 +3,8 @@
 #![allow(dead_code)]
 
 use ttb_passage::{Heading, ModalBridge, Output, Passage, Quantity, Response, Settings};
-use ttb_scenario::spec::{BridgeSpec, StructureSpec};
-use ttb_scenario::types::{Damping, Newmark, Span};
+use ttb_scenario::spec::{BridgeSpec, Span, StructureSpec};
+use ttb_scenario::types::{Damping, Newmark};
 use ttb_trains::ForceTrain;
 
 /// Spans of one beam: length, mass, EI.
