@@ -66,6 +66,11 @@ impl RailCompliance {
         begin..end
     }
 
+    /// Whether two points feel each other at all.
+    pub fn reaches(&self, i: &RailPoint, j: &RailPoint) -> bool {
+        i.element.abs_diff(j.element) <= self.width
+    }
+
     /// N_i K̂⁻¹ N_jᵀ, m/N, local compliance not included.
     pub fn between(&self, i: &RailPoint, j: &RailPoint) -> f64 {
         let mut sum = 0.0;

@@ -50,6 +50,8 @@ pub struct TrainTrackSystem {
     pub wheels: Wheels,
     /// Y by rows, for (t₁, h).
     pub(crate) compliance: Vec<f64>,
+    /// The first axle before each axle that Y couples it with.
+    pub(crate) coupled_from: Vec<usize>,
     /// N K̂⁻¹ e_s from every axle (rows) to the supports on the bridge, and which of them it reaches.
     to_supports: Vec<f64>,
     reached: Vec<Range<usize>>,
@@ -77,6 +79,7 @@ impl TrainTrackSystem {
             contacts,
             wheels,
             compliance: vec![0.0; axles * axles],
+            coupled_from: vec![0; axles],
             to_supports: vec![0.0; axles * supports],
             reached: vec![0..0; axles],
             geometry_for: None,
@@ -125,8 +128,17 @@ impl TrainTrackSystem {
         let points = &self.wheels.points;
         let n = points.len();
         for i in 0..n {
-            for j in 0..=i {
-                let y = matrices.track.compliance.between(&points[i], &points[j]);
+            // Axles stand in order: before the first that is out of reach so are all, but a car couples its own.
+            let table = &matrices.track.compliance;
+            let near = (0..i).rev().take_while(|j| table.reaches(&points[i], &points[*j])).count();
+            let from = (i - near).min(i - i % AXLES);
+            for j in self.coupled_from[i]..from {
+                self.compliance[i * n + j] = 0.0;
+                self.compliance[j * n + i] = 0.0;
+            }
+            self.coupled_from[i] = from;
+            for j in from..=i {
+                let y = table.between(&points[i], &points[j]);
                 self.compliance[i * n + j] = y;
                 self.compliance[j * n + i] = y;
             }

@@ -10,6 +10,7 @@ mod cholesky;
 pub mod compliance;
 pub mod contact;
 pub mod coupled;
+mod decaying;
 mod interface;
 pub mod law;
 mod model;

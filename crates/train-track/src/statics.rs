@@ -8,16 +8,20 @@
 //! ```
 //!
 //! is solved by Newton with the tangent K_c + Bᵀ T B, T = D (I + Y D)⁻¹: the stationary point of a convex energy. K_c alone
-//! is singular, wheels are held by the contacts only.
+//! is singular, wheels are held by the contacts only. Axles far apart have nothing to do with each other: Y, T and the
+//! tangent are kept as far as their entries can be seen, so that the cost grows with the number of cars.
 
-use nalgebra::{DMatrix, DVector};
+use std::ops::Range;
+
+use ttb_contract::finite::larger;
 use ttb_dynamics::newmark::Motion;
 
-use crate::car::{DOFS, wheel};
+use crate::car::{DOFS, Vector10, wheel};
 use crate::coupled::TrainTrackSystem;
+use crate::decaying::{Decaying, NEGLIGIBLE};
 use crate::law::Law;
 use crate::state::State;
-use ttb_contract::finite::larger;
+use crate::track::Track;
 
 /// Newton iterations at most.
 const ITERATIONS: usize = 40;
@@ -33,18 +37,13 @@ pub fn equilibrium(system: &mut TrainTrackSystem, t: f64, deck: &[f64], state: &
     system.locate(t)?;
     let rail = rail_without_wheels(system, deck);
     static_compliance(system);
-    let (axles, n) = (system.wheels.points.len(), system.cars.len() * DOFS);
+    let axles = system.wheels.points.len();
     let under = |i: usize| system.track().deflection(&system.wheels.points[i], &rail) + system.wheels.roughness[i];
     let offset: Vec<f64> = (0..axles).map(under).collect();
     if let Some(axle) = offset.iter().position(|under| !under.is_finite()) {
         return Err(format!("the rail under wheel {} is at {} m at t = {t} s", axle + 1, offset[axle]));
     }
-    let weight =
-        DVector::from_iterator(n, system.cars.iter().flat_map(|c| c.weight().iter().copied().collect::<Vec<_>>()));
-    let mut stiffness = DMatrix::zeros(n, n);
-    for (c, car) in system.cars.iter().enumerate() {
-        stiffness.view_mut((c * DOFS, c * DOFS), (DOFS, DOFS)).copy_from(&car.stiffness);
-    }
+    let weight: Vec<f64> = system.cars.iter().flat_map(|c| c.weight().iter().copied().collect::<Vec<_>>()).collect();
     let load = system.cars.iter().map(|c| c.axle_load).fold(0.0, larger);
 
     // First point of expansion: every axle under its static load.
@@ -53,34 +52,30 @@ pub fn equilibrium(system: &mut TrainTrackSystem, t: f64, deck: &[f64], state: &
     let mut s: Vec<f64> = (0..axles)
         .map(|i| delta[i] + (0..axles).map(|j| system.compliance[i * axles + j] * forces[j]).sum::<f64>())
         .collect();
-    let mut q: Option<DVector<f64>> = None;
+    let mut q: Option<Vec<f64>> = None;
     for _ in 0..ITERATIONS {
         // r = w − K q − Bᵀ F, and the tangent; the first time q is unknown and K q is left to the solution.
-        let tangent = contact_tangent(system, &delta);
-        let mut matrix = stiffness.clone();
+        let tangent = ContactTangent::new(system, &delta);
         let mut residual = weight.clone();
-        for i in 0..axles {
-            residual[wheel(i)] -= forces[i];
-            for j in 0..axles {
-                matrix[(wheel(i), wheel(j))] += tangent[(i, j)];
-                if q.is_none() {
-                    residual[wheel(i)] += tangent[(i, j)] * (s[j] + offset[j]);
+        (0..axles).for_each(|i| residual[wheel(i)] -= forces[i]);
+        match &q {
+            None => tangent.each(|i, j, t| residual[wheel(i)] += t * (s[j] + offset[j])),
+            Some(q) => {
+                subtract_stiffness(system, q, &mut residual);
+                let unbalanced = residual.iter().fold(0.0, |most, force| larger(most, force.abs()));
+                if unbalanced <= BALANCE * load {
+                    write(system, rail, deck, q, &delta, &forces, state);
+                    return Ok(());
                 }
             }
         }
-        if let Some(q) = &q {
-            residual -= &stiffness * q;
-            let unbalanced = residual.iter().fold(0.0, |most, force| larger(most, force.abs()));
-            if unbalanced <= BALANCE * load {
-                write(system, rail, deck, q, &delta, &forces, state);
-                return Ok(());
-            }
-        }
-        let solved = matrix
-            .cholesky()
-            .ok_or("the train has no static equilibrium: a car stands on fewer than two axles")?
-            .solve(&residual);
-        let next = q.map_or_else(|| solved.clone(), |q| q + &solved);
+        let factor = matrix(system, &tangent).factorise();
+        let factor = factor.ok_or("the train has no static equilibrium: a car stands on fewer than two axles")?;
+        factor.solve(&mut residual);
+        let next: Vec<f64> = match q {
+            None => residual,
+            Some(q) => q.iter().zip(&residual).map(|(q, change)| q + change).collect(),
+        };
         s = (0..axles).map(|i| next[wheel(i)] - offset[i]).collect();
         let compliance = std::mem::take(&mut system.compliance);
         let contact = system.contacts.solve(&compliance, &s, &mut delta, &mut forces);
@@ -89,6 +84,33 @@ pub fn equilibrium(system: &mut TrainTrackSystem, t: f64, deck: &[f64], state: &
         q = Some(next);
     }
     Err(format!("static equilibrium of the train was not found in {ITERATIONS} iterations"))
+}
+
+/// r ← r − K_c q, car by car.
+fn subtract_stiffness(system: &TrainTrackSystem, q: &[f64], residual: &mut [f64]) {
+    for (c, car) in system.cars.iter().enumerate() {
+        let own = c * DOFS..(c + 1) * DOFS;
+        let force = car.stiffness * Vector10::from_column_slice(&q[own.clone()]);
+        residual[own].iter_mut().zip(&force).for_each(|(r, f)| *r -= f);
+    }
+}
+
+/// K_c + Bᵀ T B.
+fn matrix(system: &TrainTrackSystem, tangent: &ContactTangent) -> Decaying {
+    let mut reach = DOFS - 1;
+    tangent.each(|i, j, _| reach = reach.max(wheel(i.max(j)) - wheel(i.min(j))));
+    let mut matrix = Decaying::zeros(system.cars.len() * DOFS, reach);
+    for (c, car) in system.cars.iter().enumerate() {
+        for j in 0..DOFS {
+            (j..DOFS).for_each(|i| matrix.add(c * DOFS + i, c * DOFS + j, car.stiffness[(i, j)]));
+        }
+    }
+    tangent.each(|i, j, t| {
+        if i >= j {
+            matrix.add(wheel(i), wheel(j), t);
+        }
+    });
+    matrix
 }
 
 /// K_t⁻¹ k d.
@@ -112,33 +134,87 @@ pub(crate) fn rail_under_wheels(system: &TrainTrackSystem, mut rail: Vec<f64>, f
     rail
 }
 
-/// Y of the rail alone at the present wheel positions, by one static solve an axle.
+/// Y of the rail alone at the present wheel positions, by one static solve an axle, over as much of the rail as feels it.
 pub(crate) fn static_compliance(system: &mut TrainTrackSystem) {
     let (prepared, points) = (&system.prepared, &system.wheels.points);
-    let n = points.len();
+    let (track, n) = (&prepared.track, points.len());
+    let (mut column, mut reach) = (vec![0.0; track.order()], FIRST_REACH);
+    system.compliance.fill(0.0);
+    system.coupled_from.fill(0);
     for j in 0..n {
-        let mut column = vec![0.0; prepared.track.order()];
-        prepared.track.add_force(&points[j], 1.0, &mut column);
-        prepared.statics.solve(&mut column);
+        let nodes = loop {
+            let nodes = points[j].element.saturating_sub(reach)..(points[j].element + 2 + reach).min(track.nodes());
+            let dofs = dofs_of(track, &nodes);
+            track.add_force(&points[j], 1.0, &mut column);
+            prepared.statics.solve_range(&mut column, dofs.start, dofs.end);
+            if has_decayed(track, &column, &nodes) {
+                break nodes;
+            }
+            column[dofs].fill(0.0);
+            reach *= 2;
+        };
         for (i, point) in points.iter().enumerate() {
-            system.compliance[i * n + j] = prepared.track.deflection(point, &column);
+            if nodes.contains(&point.element) && nodes.contains(&(point.element + 1)) {
+                system.compliance[i * n + j] = track.deflection(point, &column);
+            }
         }
+        column[dofs_of(track, &nodes)].fill(0.0);
         system.compliance[j * n + j] += points[j].local_compliance;
     }
 }
 
-/// T = S (I + S Y S)⁻¹ S, S = diag F′(δ)^{1/2}.
-fn contact_tangent(system: &TrainTrackSystem, delta: &[f64]) -> DMatrix<f64> {
-    let n = delta.len();
-    let root: Vec<f64> = delta.iter().zip(system.contacts.laws()).map(|(d, law)| law.force(*d).1.sqrt()).collect();
-    let symmetric = DMatrix::from_fn(n, n, |i, j| {
-        let (i, j) = (i.max(j), i.min(j));
-        root[i] * system.compliance[i * n + j] * root[j] + if i == j { 1.0 } else { 0.0 }
-    });
-    // I plus a positive semidefinite matrix always has a Cholesky factor; without one the state is not finite and the
-    // caller's next Cholesky reports it.
-    let inverse = symmetric.cholesky().map_or_else(|| DMatrix::from_element(n, n, f64::NAN), |c| c.inverse());
-    DMatrix::from_fn(n, n, |i, j| root[i] * inverse[(i, j)] * root[j])
+/// Rail nodes on either side that are tried first; 80 m of usual track.
+const FIRST_REACH: usize = 256;
+
+/// The degrees of freedom of some nodes of the rail and of what stands below them.
+fn dofs_of(track: &Track, nodes: &Range<usize>) -> Range<usize> {
+    let dof = |node: usize| if node < track.nodes() { track.node_dof(node) } else { track.order() };
+    dof(nodes.start)..dof(nodes.end)
+}
+
+/// Whether nothing is left of a deflection in the outer eighths of a window, unless the rail ends there.
+fn has_decayed(track: &Track, column: &[f64], nodes: &Range<usize>) -> bool {
+    let eighth = nodes.len() / 8;
+    let largest = column[dofs_of(track, nodes)].iter().fold(0.0, |most, u| larger(most, u.abs()));
+    let quiet = |part: Range<usize>| column[dofs_of(track, &part)].iter().all(|u| u.abs() <= NEGLIGIBLE * largest);
+    (nodes.start == 0 || quiet(nodes.start..nodes.start + eighth))
+        && (nodes.end == track.nodes() || quiet(nodes.end - eighth..nodes.end))
+}
+
+/// T = S (I + S Y S)⁻¹ S, S = diag F′(δ)^{1/2}, by columns: the first row of each and its entries.
+struct ContactTangent(Vec<(usize, Vec<f64>)>);
+
+impl ContactTangent {
+    fn new(system: &TrainTrackSystem, delta: &[f64]) -> Self {
+        let (n, y) = (delta.len(), &system.compliance);
+        let root: Vec<f64> = delta.iter().zip(system.contacts.laws()).map(|(d, law)| law.force(*d).1.sqrt()).collect();
+        let last = |j: usize| (j..n).rev().find(|i| y[i * n + j] != 0.0).unwrap_or(j);
+        let reach = (0..n).map(|j| last(j) - j).max().unwrap_or(0);
+        let mut symmetric = Decaying::zeros(n, reach);
+        for j in 0..n {
+            (j..n.min(j + reach + 1)).for_each(|i| symmetric.add(i, j, root[i] * y[i * n + j] * root[j]));
+            symmetric.add(j, j, 1.0);
+        }
+        // I plus a positive semidefinite matrix always has a Cholesky factor; without one the state is not finite and the
+        // caller's next Cholesky reports it.
+        let Some(factor) = symmetric.factorise() else { return Self(vec![(0, vec![f64::NAN; n]); n]) };
+        let mut column = vec![0.0; n];
+        let columns = (0..n).map(|j| {
+            let rows = factor.inverse(j, &mut column);
+            let entries = rows.clone().map(|i| root[i] * column[i] * root[j]).collect();
+            let first = rows.start;
+            column[rows].fill(0.0);
+            (first, entries)
+        });
+        Self(columns.collect())
+    }
+
+    /// Every entry: row, column, value, column by column.
+    fn each(&self, mut visit: impl FnMut(usize, usize, f64)) {
+        for (j, (first, entries)) in self.0.iter().enumerate() {
+            entries.iter().enumerate().for_each(|(k, t)| visit(first + k, j, *t));
+        }
+    }
 }
 
 /// The state of rest under the found forces.
@@ -146,12 +222,12 @@ fn write(
     system: &TrainTrackSystem,
     rail: Vec<f64>,
     deck: &[f64],
-    q: &DVector<f64>,
+    q: &[f64],
     delta: &[f64],
     forces: &[f64],
     state: &mut State,
 ) {
-    state.cars = Motion { u: q.as_slice().to_vec(), ..Motion::rest(q.len()) };
+    state.cars = Motion { u: q.to_vec(), ..Motion::rest(q.len()) };
     state.track = Motion { u: rail_under_wheels(system, rail, forces), ..Motion::rest(system.track().order()) };
     state.delta.copy_from_slice(delta);
     state.forces.copy_from_slice(forces);
