@@ -74,7 +74,16 @@ impl<M: Model> Instance<M> {
             2 => Phase::Stepping,
             other => return Err(wrong(&format!("it is in phase {other}, which there is not"))),
         };
-        let [has_rates, had_rates, stale, has_state] = [flags[1], flags[2], flags[3], flags[4]].map(|flag| flag != 0);
+        if let Some(flag) = flags[1..].iter().find(|flag| **flag > 1) {
+            return Err(wrong(&format!("a flag is {flag}, neither 0 nor 1")));
+        }
+        let [has_rates, had_rates, stale, has_state] = [flags[1], flags[2], flags[3], flags[4]].map(|flag| flag == 1);
+        if !has_state && !state.is_empty() {
+            return Err(wrong(&format!("{} bytes stand behind a state that was not built yet", state.len())));
+        }
+        if phase == Phase::Stepping && !has_state {
+            return Err(wrong("it is in the middle of a run, but holds no state"));
+        }
         (values.has_rates, values.had_rates) = (has_rates, had_rates);
         self.check(&values, [start, time])?;
         let state = if has_state { Some(self.read(&values, start, state)?) } else { None };

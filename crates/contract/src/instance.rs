@@ -1,6 +1,7 @@
 //! A model with the life cycle of an FMI 2.0 co-simulation slave: the FMU shell and the in-process run share it, so that
 //! both take exactly the same path through the physics.
 
+use crate::finite::not_finite;
 use crate::instant;
 use crate::interface::Causality;
 use crate::model::{Model, ModelError};
@@ -198,16 +199,27 @@ impl<M: Model> Instance<M> {
     /// One macro step from t, the end of the last one, to t + h (s).
     ///
     /// # Errors
-    /// A step that [`Instance::check_step`] refuses, or that the model cannot do.
+    /// A step that [`Instance::check_step`] refuses, that the model cannot do, or that leads to an output that is no finite
+    /// number.
     pub fn step(&mut self, t: f64, h: f64) -> Result<(), ModelError> {
         self.check_step(t, h)?;
         if !instant::is_nothing(t, h) {
             self.model.step(&mut self.values, t, h)?;
+            self.check_outputs(t + h)?;
         }
         self.time = t + h;
         // Derivatives were for this step only.
         self.values.had_rates = std::mem::take(&mut self.values.has_rates);
         Ok(())
+    }
+
+    /// No output is NaN or infinite.
+    fn check_outputs(&self, t: f64) -> Result<(), ModelError> {
+        let outputs = self.model.interface().outputs();
+        let Some(at) = not_finite(&self.values.all[outputs.clone()]) else { return Ok(()) };
+        let reference = outputs.start + at;
+        let (name, value) = (&self.model.interface().variables()[reference].name, self.values.all[reference]);
+        Err(ModelError(format!("output {name} is {value} at t = {t} s")))
     }
 
     /// Back to the state after instantiation; the parameters return to their start values.

@@ -158,9 +158,18 @@ fn what_could_not_be_set_is_not_restored_either() {
         let error = instance.from_bytes(&forge(number, value)).err().expect("refused").0;
         assert!(error.contains(what), "{error}");
     }
-    let mut phase = body.to_vec();
-    phase[8] = 3;
-    assert!(instance.from_bytes(&summed(phase)).is_err());
+    // Phase, flags, and lengths that fit no phase.
+    for (at, value, what) in [(8, 3, "phase 3"), (9, 2, "a flag is 2"), (11, 255, "a flag is 255"), (12, 0, "8 bytes")]
+    {
+        let mut body = body.to_vec();
+        body[at] = value;
+        let error = instance.from_bytes(&summed(body)).err().expect("refused").0;
+        assert!(error.contains(what), "{error}");
+    }
+    let mut without_state = body[..body.len() - 8].to_vec();
+    without_state[12] = 0;
+    let error = instance.from_bytes(&summed(without_state)).err().expect("refused").0;
+    assert!(error.contains("holds no state"), "{error}");
     instance.step(0.5, 0.5).unwrap();
     assert_eq!(output(&mut instance), 12.0);
 }
@@ -175,6 +184,26 @@ fn a_state_that_cannot_be_restored_leaves_the_instance_as_it_was() {
     other.set(&[2], &[-1.0]).unwrap();
     let error = instance.restore(&other.save()).unwrap_err();
     assert!(error.0.contains("-1"), "{error}");
+    instance.step(0.5, 0.5).unwrap();
+    assert_eq!(output(&mut instance), 12.0);
+}
+
+#[test]
+fn a_step_that_leads_to_infinity_is_refused_and_the_instance_comes_back() {
+    let mut instance = running(3.0);
+    let before = instance.save();
+    let mut bytes = instance.to_bytes(&before);
+    bytes.truncate(bytes.len() - 8);
+    // u and the state are finite, but 1.7e308 + 3 · 1e308 · 0.5 is not.
+    for (number, value) in [(2, 1e308_f64), (6, 1.7e308)] {
+        let place = 13 + 8 * number;
+        bytes[place..place + 8].copy_from_slice(&value.to_le_bytes());
+    }
+    let state = instance.from_bytes(&summed(bytes)).expect("finite numbers");
+    instance.restore(&state).unwrap();
+    let error = instance.step(0.5, 0.5).unwrap_err().0;
+    assert!(error.contains("output y is inf at t = 1 s"), "{error}");
+    instance.restore(&before).unwrap();
     instance.step(0.5, 0.5).unwrap();
     assert_eq!(output(&mut instance), 12.0);
 }
