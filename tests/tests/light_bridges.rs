@@ -69,6 +69,8 @@ struct Ran {
     rescues: usize,
     report: Report,
     mid: Vec<f64>,
+    /// Acceleration of the monitored point.
+    acceleration: Vec<f64>,
 }
 
 /// Which of roll-back, derivatives, interpolation the bridge has.
@@ -91,7 +93,9 @@ fn try_run(checked: &Checked, settings: Settings, abilities: Abilities) -> Resul
     let rescues = table.steps.iter().map(|step| step.rescues).sum();
     let middle = format!("support[{}].displacement", coupling.ports().forces() / 2 + 1);
     let mid = table.history(&middle).expect("a support").to_vec();
-    Ok(Ran { mean, most, rescues, report, mid })
+    let point = format!("point[{}].acceleration", checked.bridge.points[0].name);
+    let acceleration = table.history(&point).expect("a point").to_vec();
+    Ok(Ran { mean, most, rescues, report, mid, acceleration })
 }
 
 fn runs(checked: &Checked, method: Method, abilities: Abilities) -> Ran {
@@ -188,6 +192,34 @@ fn without_roll_back_the_estimate_bounds_the_error() {
             println!("{mass} kg/m, {h} s, {abilities:?}: off {off:.1e}, estimate {residual:.1e}, work {work:.1e}");
             assert!(off <= residual, "{mass} kg/m, {h} s, {abilities:?}: {off:.1e}, estimate {residual:.1e}");
         }
+    }
+}
+
+#[test]
+fn without_roll_back_accelerations_have_an_estimate_of_their_own() {
+    const FINER: usize = 4;
+    let largest = |values: &mut dyn Iterator<Item = f64>| values.fold(0.0_f64, |most, x| most.max(x.abs()));
+    for (mass, h) in [(29_720.0, 1e-3), (29_720.0, 5e-3), (5000.0, 1e-3), (5000.0, 2e-3), (1500.0, 1e-3)] {
+        let checked = r1_with(mass, h);
+        let fine = runs(&r1_with(mass, h / FINER as f64), Method::Auto, ALL);
+        let (truth, ran) = (runs(&checked, Method::Auto, ALL), runs(&checked, Method::Auto, [false, true, true]));
+        let estimate = ran.report.explicit_acceleration.expect("derivatives tell how far forces accelerate the deck");
+        let pairs = |a: &Ran, b: &Ran, every: usize| {
+            let of_b: Vec<f64> = b.acceleration.iter().step_by(every).copied().collect();
+            largest(&mut a.acceleration.iter().zip(&of_b).map(|(a, b)| a - b))
+        };
+        let [of_coupling, of_step, both] =
+            [(&ran, &truth, 1), (&truth, &fine, FINER), (&ran, &fine, FINER)].map(|(a, b, n)| pairs(a, b, n));
+        let peak = largest(&mut fine.acceleration.iter().copied());
+        let relative = ran.report.explicit.unwrap_or_default();
+        println!(
+            "{mass} kg/m, {h} s: peak {peak:.1e} m/s²; off by the coupling {of_coupling:.1e}, the step {of_step:.1e}, both \
+             {both:.1e}; estimate {estimate:.1e}; of displacements {relative:.1e}, which would be {:.1e}",
+            relative * peak
+        );
+        // In these cases 1.8 to 4 times the error.
+        assert!(of_coupling <= estimate && estimate <= 10.0 * of_coupling, "{mass} kg/m, {h} s");
+        assert!(both <= estimate + of_step, "{mass} kg/m, {h} s");
     }
 }
 

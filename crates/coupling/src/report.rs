@@ -28,6 +28,18 @@ pub enum Side {
     Bridge,
 }
 
+/// A side that came back nearly to a state it had saved.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Returned {
+    /// Begin of the step that was taken again, s.
+    pub t: f64,
+    /// Which.
+    pub side: Side,
+    /// By how much the step from the restored state differs, relative to what a tenth of an axle load, or 0.01 mm of the
+    /// deck's motion, changes of it.
+    pub difference: f64,
+}
+
 /// Where a model of the interface came from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Source {
@@ -75,6 +87,14 @@ pub struct Report {
     pub switches: Vec<(f64, Method)>,
     /// Steps that were not iterated: largest |G − λ| / max(|G|, one axle load), the force that was missing.
     pub explicit: Option<f64>,
+    /// The same as accelerations of the deck, m/s²: the largest force that was missing at a port, as far as it can
+    /// accelerate the deck there. None if nobody could be asked how far that is.
+    pub explicit_acceleration: Option<f64>,
+    /// The step from a restored state that was furthest from the step from the state that had been saved, if that can be
+    /// seen.
+    pub returned: Option<Returned>,
+    /// Largest amount of an accepted force, in the unit of the first port, and of a position of the deck, m.
+    pub largest: [f64; 2],
     /// Work at the interface, all steps together.
     pub work: Work,
 }

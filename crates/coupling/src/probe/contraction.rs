@@ -5,7 +5,14 @@
 //! ```
 //!
 //! All eigenvalues are real and not negative, so the quotients grow towards ρ. A deck yields most to loads that are alike
-//! everywhere; that is where v begins.
+//! everywhere; that is where v begins. On the way it is seen how far forces can accelerate the deck:
+//!
+//! ```text
+//! Δa = 2 Δḋ/h  (= 4 Δd/h² where no rates are known),    α = max |Δa|/|v|,  1/kg
+//! ```
+
+use ttb_contract::Ports;
+use ttb_contract::finite::larger;
 
 use crate::algebra::norm;
 use crate::error::IterationError;
@@ -22,19 +29,36 @@ pub(crate) fn shape(i: usize) -> f64 {
     0.5 + (i as f64 * 0.618_033_988_749_895).fract()
 }
 
+/// What the trials showed.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Strength {
+    /// ρ.
+    pub rho: f64,
+    /// α: how far a change of the forces at the end of a step accelerates the deck there, 1/kg.
+    pub acceleration: f64,
+    /// How many trials it took.
+    pub trials: usize,
+}
+
+/// |Δa| of a change of the motion over a step.
+fn accelerated(ports: &Ports, change: &[f64], h: f64) -> f64 {
+    let parts = ports.parts(change);
+    if parts.rates.is_empty() { 4.0 * norm(parts.positions) / (h * h) } else { 2.0 * norm(parts.rates) / h }
+}
+
 /// v of the start, and the trial load's size.
 fn begin(trials: &Trials) -> (Vec<f64>, f64) {
     let n = trials.lambda.len();
     ((0..n).map(shape).collect(), CHANGE * trials.scale * (n as f64).sqrt())
 }
 
-/// ρ of the step from the saved states, about the forces at hand, and the trials it took. The forces stay.
-pub(crate) fn contraction(trials: &mut Trials, sides: &mut Sides) -> Result<(f64, usize), IterationError> {
+/// ρ and α of the step from the saved states, about the forces at hand. The forces stay.
+pub(crate) fn contraction(trials: &mut Trials, sides: &mut Sides) -> Result<Strength, IterationError> {
     let (mut v, load) = begin(trials);
     let at = trials.lambda.clone();
     trials.run(sides)?;
-    let base = trials.answer.clone();
-    let mut rho = 0.0;
+    let (base, still) = (trials.answer.clone(), trials.exchange.motion.clone());
+    let mut strength = Strength { trials: POWER + 1, ..Strength::default() };
     for _ in 0..POWER {
         let size = norm(&v);
         if !(size > 0.0 && size.is_finite()) {
@@ -44,15 +68,18 @@ pub(crate) fn contraction(trials: &mut Trials, sides: &mut Sides) -> Result<(f64
         trials.lambda.iter_mut().zip(&at).zip(&v).for_each(|((l, t), v)| *l = t + factor * v);
         trials.run(sides)?;
         v.iter_mut().zip(&trials.answer).zip(&base).for_each(|((v, g), base)| *v = (g - base) / factor);
-        rho = norm(&v) / size;
+        strength.rho = norm(&v) / size;
+        let change: Vec<f64> = trials.exchange.motion.iter().zip(&still).map(|(a, b)| a - b).collect();
+        let seen = accelerated(trials.exchange.ports(), &change, sides.h) / load;
+        strength.acceleration = larger(strength.acceleration, seen);
     }
     trials.lambda = at;
-    Ok((rho, POWER + 1))
+    Ok(strength)
 }
 
 /// The same without a step of the bridge itself: by its directional derivatives or by trial instances of it, and by trials
 /// of the train–track side. `None` if the bridge has neither, or refuses them before its first step.
-pub(crate) fn apart(trials: &mut Trials, sides: &mut Sides) -> Result<Option<f64>, IterationError> {
+pub(crate) fn apart(trials: &mut Trials, sides: &mut Sides) -> Result<Option<Strength>, IterationError> {
     let (mut v, load) = begin(trials);
     let share = trials.exchange.share_of_force(sides.bridge);
     let mut change = vec![0.0; trials.exchange.now.len()];
@@ -62,7 +89,7 @@ pub(crate) fn apart(trials: &mut Trials, sides: &mut Sides) -> Result<Option<f64
     let base = trials.answer.clone();
     // Derivatives are those for inputs as they will be given.
     trials.exchange.announce(sides, trials.forces.now(), trials.forces.now())?;
-    let (mut rho, mut at_rest) = (None, None);
+    let (mut strength, mut at_rest) = (None::<Strength>, None);
     for _ in 0..POWER {
         let size = norm(&v);
         if !(size > 0.0 && size.is_finite()) {
@@ -85,10 +112,12 @@ pub(crate) fn apart(trials: &mut Trials, sides: &mut Sides) -> Result<Option<f64
         sides.train_track.restore()?;
         trials.run_train_track(sides, true)?;
         v.iter_mut().zip(&trials.answer).zip(&base).for_each(|((v, g), base)| *v = (g - base) / factor);
-        rho = Some(norm(&v) / size);
+        let seen = accelerated(trials.exchange.ports(), &change, sides.h) / load;
+        let acceleration = larger(seen, strength.map_or(0.0, |known| known.acceleration));
+        strength = Some(Strength { rho: norm(&v) / size, acceleration, trials: 0 });
     }
     sides.train_track.restore()?;
-    Ok(rho)
+    Ok(strength)
 }
 
 /// What a change of the forces changes of the motion after a step, seen on trial instances; `at_rest` keeps the motion

@@ -8,7 +8,7 @@ mod identify;
 pub mod rehearsal;
 pub mod response;
 
-pub(crate) use contraction::{apart, contraction};
+pub(crate) use contraction::{Strength, apart, contraction, shape};
 pub(crate) use identify::identify;
+pub(crate) use rehearsal::{FORCE, MOTION, alike, difference, rehearse};
 pub use rehearsal::{Probe, returns};
-pub(crate) use rehearsal::{difference, rehearse};

@@ -29,9 +29,9 @@ use crate::trial::{Sides, Trials};
 /// Steps of a run.
 const STEPS: usize = 4;
 /// Forces tried, axle loads.
-const FORCE: f64 = 0.1;
+pub(crate) const FORCE: f64 = 0.1;
 /// Motion of the deck tried on the train–track subsystem, m.
-const MOTION: f64 = 1e-5;
+pub(crate) const MOTION: f64 = 1e-5;
 /// A repeated step may differ by this part of what the trials in between had changed, and by this part of its value.
 const REPEATED: [f64; 2] = [1e-8, 1e-13];
 
@@ -61,7 +61,7 @@ pub(crate) fn difference(ports: &Ports, first: &[f64], repeated: &[f64], other: 
 }
 
 /// The same of numbers of one kind.
-fn alike(first: &[f64], repeated: &[f64], other: &[f64]) -> f64 {
+pub(crate) fn alike(first: &[f64], repeated: &[f64], other: &[f64]) -> f64 {
     let apart = |a: &[f64], b: &[f64]| largest(a.iter().zip(b).map(|(a, b)| (a - b).abs()));
     let rounding = REPEATED[1] * largest(first.iter().map(|a| a.abs()));
     let off = larger(apart(first, repeated) - rounding, 0.0);

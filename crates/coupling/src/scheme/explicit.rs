@@ -8,9 +8,20 @@
 //! G  = G_T(d, ḋ)                                     train–track again, on the motion that came out
 //! ```
 //!
-//! Deck and track never part; G − λ, the force that is missing, is the error estimate. The scheme is stable as long as ρ,
-//! the contraction of the iteration it stands for, is small. ρ is measured before the first step: by the bridge's
-//! directional derivatives, or by other instances of it that are thrown away. A residual that grows tells in any case.
+//! Deck and track never part; G − λ, the force that is missing, is the error estimate, two ways:
+//!
+//! ```text
+//! ε  = |G − λ|/max(|G|, one axle load)               about the relative error that a step makes in displacements
+//! ε_a = α max_i |G_i − λ_i|                          about the error of the deck's accelerations, m/s²
+//! ```
+//!
+//! with α, 1/kg, how far forces accelerate the deck (module `contraction`). Neither is a bound: errors of many steps add up.
+//!
+//! The scheme is stable as long as ρ, the contraction of the iteration it stands for, is small. ρ and α are measured before
+//! the first step: by the bridge's directional derivatives, or by other instances of it that are thrown away. A residual
+//! that grows tells in any case.
+
+use ttb_contract::finite::largest;
 
 use crate::error::IterationError;
 use crate::probe::apart;
@@ -32,6 +43,8 @@ pub(crate) struct Explicit {
     velocity: Vec<f64>,
     h: f64,
     begun: bool,
+    /// α.
+    acceleration: Option<f64>,
 }
 
 impl Explicit {
@@ -64,6 +77,11 @@ impl Explicit {
         self.h = sides.h;
         let most = shared.report.explicit.get_or_insert_default();
         *most = most.max(residual);
+        if let Some(alpha) = self.acceleration {
+            let missing = alpha * largest(trials.residual.iter().map(|force| force.abs()));
+            let most = shared.report.explicit_acceleration.get_or_insert_default();
+            *most = most.max(missing);
+        }
         let work = shared.accept(sides, false)?;
         let (outcome, method) = (Outcome::Explicit, Method::Explicit);
         let trials = StepInfo { iterations: 1, train_track_trials: 2, ..StepInfo::default() };
@@ -79,15 +97,17 @@ impl Explicit {
         let (now, _) = trials.exchange.parts();
         self.velocity.extend_from_slice(now.rates);
         (self.h, self.begun) = (sides.h, true);
-        let rho = if sides.bridge.can_roll_back() {
+        let strength = if sides.bridge.can_roll_back() {
             sides.save()?;
             trials.lambda.copy_from_slice(trials.forces.now());
-            let rho = shared.contraction(sides)?;
+            let strength = shared.contraction(sides)?;
             sides.restore()?;
-            Some(rho)
+            Some(strength)
         } else {
             apart(trials, sides)?
         };
+        let rho = strength.map(|strength| strength.rho);
+        self.acceleration = strength.map(|strength| strength.acceleration);
         shared.report.contraction = rho;
         match rho {
             Some(rho) if rho.is_nan() || rho > STABLE => {

@@ -13,9 +13,10 @@ const HALVINGS: usize = 4;
 
 /// A step by iteration, accepted; `depth` halvings were made to get here.
 pub(crate) fn step(shared: &mut Shared, sides: &mut Sides, depth: usize) -> Result<StepInfo, IterationError> {
-    let info = attempt(shared, sides)?;
+    let due = depth == 0 && shared.audit.is_due();
+    let info = attempt(shared, sides, due)?;
     let (policy, t, h) = (shared.iteration.settings.on_failure, sides.t, sides.h);
-    if info.outcome == Outcome::Converged && shared.audit.is_due() {
+    if info.outcome == Outcome::Converged && due {
         shared.audit.remember(&shared.iteration);
         shared.audit.repeat(&mut shared.iteration.trials, sides)?;
     }
@@ -45,12 +46,16 @@ pub(crate) fn step(shared: &mut Shared, sides: &mut Sides, depth: usize) -> Resu
     })
 }
 
-/// The step at this size: measured before the first one, with a model where one is wanted, begun again once.
-fn attempt(shared: &mut Shared, sides: &mut Sides) -> Result<StepInfo, IterationError> {
+/// The step at this size: looked at where that is due, measured before the first one, with a model where one is wanted,
+/// begun again once.
+fn attempt(shared: &mut Shared, sides: &mut Sides, due: bool) -> Result<StepInfo, IterationError> {
     sides.save()?;
     shared.iteration.trials.predict(sides.h);
+    if due {
+        shared.audit.look(&mut shared.iteration.trials, sides, &mut shared.report)?;
+    }
     if shared.report.contraction.is_none() {
-        shared.report.contraction = Some(shared.contraction(sides)?);
+        shared.report.contraction = Some(shared.contraction(sides)?.rho);
     }
     if shared.iteration.strategy.wants_model() {
         let found = identify(&mut shared.iteration.trials, sides)?;
@@ -104,7 +109,7 @@ fn not_converged(shared: &mut Shared, sides: &mut Sides, info: StepInfo) -> Resu
 fn diagnose(shared: &mut Shared, sides: &mut Sides) -> Result<f64, IterationError> {
     shared.iteration.run_plain(sides)?;
     shared.audit.remember(&shared.iteration);
-    let rho = shared.contraction(sides)?;
+    let rho = shared.contraction(sides)?.rho;
     shared.audit.repeat(&mut shared.iteration.trials, sides)?;
     Ok(rho)
 }

@@ -3,7 +3,7 @@
 use ttb_contract::Ports;
 
 use crate::error::IterationError;
-use crate::probe::contraction;
+use crate::probe::{Strength, contraction};
 use crate::report::Report;
 use crate::scheme::account::Account;
 use crate::scheme::audit::Audit;
@@ -22,15 +22,15 @@ pub(crate) struct Shared {
 impl Shared {
     pub fn new(ports: Ports, settings: Settings) -> Self {
         let account = Account::new(&ports, settings.mean_forces);
-        let audit = Audit::new(ports.motions());
+        let audit = Audit::new(ports.forces(), ports.motions());
         Self { iteration: Iteration::new(ports, settings), account, audit, report: Report::default() }
     }
 
-    /// ρ of the step from the saved states.
-    pub fn contraction(&mut self, sides: &mut Sides) -> Result<f64, IterationError> {
-        let (rho, trials) = contraction(&mut self.iteration.trials, sides)?;
-        self.report.identification_trials += trials;
-        Ok(rho)
+    /// ρ and α of the step from the saved states.
+    pub fn contraction(&mut self, sides: &mut Sides) -> Result<Strength, IterationError> {
+        let strength = contraction(&mut self.iteration.trials, sides)?;
+        self.report.identification_trials += strength.trials;
+        Ok(strength)
     }
 
     /// Accepts the trial: its work is counted, the next step begins there. With `answer` the train–track side's answer is
@@ -38,6 +38,10 @@ impl Shared {
     pub fn accept(&mut self, sides: &mut Sides, answer: bool) -> Result<Work, IterationError> {
         let trials = &mut self.iteration.trials;
         let work = self.account.count(trials, sides)?;
+        let (_, motion) = trials.exchange.parts();
+        let amount = |most: f64, values: &[f64]| values.iter().fold(most, |most, x| most.max(x.abs()));
+        let [force, position] = self.report.largest;
+        self.report.largest = [amount(force, &trials.lambda), amount(position, motion.positions)];
         trials.accept(sides.h, answer);
         self.report.work += work;
         Ok(work)
