@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use ttb_coupling::IterationError;
 use ttb_fmi::FmuError;
+use ttb_fmi::archive::UnpackError;
 use ttb_scenario::Problems;
 use ttb_session::RunError;
 use ttb_session::error::Refusal;
@@ -22,6 +23,9 @@ pub enum Error {
     /// A step did not converge.
     #[error("{0}")]
     NotConverged(IterationError),
+    /// All steps were taken, but the results cannot be believed.
+    #[error("{0}")]
+    BlownUp(String),
     /// An FMU failed.
     #[error("{0}")]
     Fmu(String),
@@ -58,7 +62,7 @@ impl Error {
         match self {
             Self::Findings { .. } => 1,
             Self::Scenario(_) | Self::Input(_) => 2,
-            Self::NotConverged(_) => 3,
+            Self::NotConverged(_) | Self::BlownUp(_) => 3,
             Self::Fmu(_) | Self::NoReturn(_) => 4,
             Self::Io { .. } | Self::Pack(_) => 5,
             Self::Interrupted(signal) => signal.code(),
@@ -70,6 +74,7 @@ impl Error {
         match self {
             Self::Scenario(_) | Self::Input(_) => "bad-input",
             Self::NotConverged(_) => "not-converged",
+            Self::BlownUp(_) => "blown-up",
             Self::Fmu(_) | Self::NoReturn(_) => "fmu-failed",
             Self::Io { .. } | Self::Pack(_) => "io-failed",
             Self::Findings { .. } => "findings",
@@ -119,6 +124,10 @@ impl From<RunError> for Error {
 
 impl From<FmuError> for Error {
     fn from(error: FmuError) -> Self {
-        Self::Fmu(error.to_string())
+        match error {
+            // No room in the temporary folder is no fault of the FMU.
+            FmuError::Unpack { source: UnpackError::Write { path, source }, .. } => Self::Io { path, source },
+            other => Self::Fmu(other.to_string()),
+        }
     }
 }

@@ -87,15 +87,10 @@ pub fn pack(contents: &Contents, path: &Path) -> Result<(), PackError> {
 fn fill(contents: &Contents, file: &File, path: &Path) -> Result<(), PackError> {
     let mut archive =
         Archive { zip: ZipWriter::new(BufWriter::new(file)).set_auto_large_file(), date: contents.about.date, path };
-    let identifier = contents.about.model_identifier;
-    archive.text("modelDescription.xml", &xml(contents.interface, contents.about)?)?;
-    archive.file(&format!("binaries/{PLATFORM}/{identifier}.{LIBRARY_EXTENSION}"), contents.binary)?;
-    archive.text("documentation/index.html", &documentation(contents.interface, contents.about))?;
-    for (name, text) in contents.licenses {
-        archive.text(&format!("documentation/licenses/{name}"), text)?;
-    }
-    if let Some(resources) = contents.resources {
-        archive.folder("resources", resources)?;
+    if let Err(error) = archive.entries(contents) {
+        // Dropped half-way it would try to finish the archive, and print that it cannot.
+        std::mem::forget(archive.zip);
+        return Err(error);
     }
     let failed = |source| PackError::Write { path: path.to_path_buf(), source };
     let mut buffered = archive.zip.finish().map_err(|e| failed(e.into()))?;
@@ -111,6 +106,17 @@ struct Archive<'a, W: Write + io::Seek> {
 impl<W: Write + io::Seek> Archive<'_, W> {
     fn failed(&self, source: io::Error) -> PackError {
         PackError::Write { path: self.path.to_path_buf(), source }
+    }
+
+    fn entries(&mut self, contents: &Contents) -> Result<(), PackError> {
+        let identifier = contents.about.model_identifier;
+        self.text("modelDescription.xml", &xml(contents.interface, contents.about)?)?;
+        self.file(&format!("binaries/{PLATFORM}/{identifier}.{LIBRARY_EXTENSION}"), contents.binary)?;
+        self.text("documentation/index.html", &documentation(contents.interface, contents.about))?;
+        for (name, text) in contents.licenses {
+            self.text(&format!("documentation/licenses/{name}"), text)?;
+        }
+        contents.resources.map_or(Ok(()), |resources| self.folder("resources", resources))
     }
 
     /// Opens an entry. Without a date it gets the first that archives know, 1980, so that the same contents are the same bytes.

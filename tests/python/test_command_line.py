@@ -246,6 +246,24 @@ def test_a_disk_that_fills_leaves_whole_rows_and_a_summary_that_says_so(ttb, tmp
     assert not list(tmp_path.glob("*.part"))
 
 
+def test_a_temporary_folder_that_fills_is_no_fault_of_the_fmu(ttb, examples, r1, tmp_path):
+    """Exit 5 with the path; here a limit on the size of a file that an unpacked library meets, and one that packing meets."""
+
+    def run(limit, *arguments):
+        def limited():
+            resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit))
+
+        command = [ttb.path, "run", examples / "r1.json", "-q", "-o", tmp_path / "out", *arguments]
+        done = subprocess.run(command, capture_output=True, text=True, preexec_fn=limited, restore_signals=False)
+        said = [line for line in done.stderr.splitlines() if "warning" not in line]
+        assert done.returncode == 5 and len(said) == 1 and not (tmp_path / "out").exists(), done.stderr
+        return said[0]
+
+    given = ["--train-track", r1.train_track.path, "--bridge", r1.bridge.path]
+    assert "/binaries/linux64/" in run(200_000, *given)
+    assert "TrainTrack.fmu" in run(200_000)
+
+
 def test_what_a_file_or_an_fmu_says_does_not_command_the_terminal(ttb, examples, tmp_path):
     """Escape sequences are written out."""
     scenario = changed(examples / "r1.json", tmp_path / "s.json", {"title": "\x1b[31mred", "time.end": 0.002})

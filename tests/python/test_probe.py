@@ -46,6 +46,26 @@ def test_a_bridge_whose_states_are_not_restored_runs_as_one_without_roll_back(tt
     assert np.array_equal(promised, not_promised)
 
 
+def test_a_state_that_comes_back_a_little_wrong_late_in_the_run_is_told(ttb, short, tmp_path, libraries):
+    """From 0.2 s on every restored velocity is off by 1e-6 m/s, which trial steps before the run cannot show."""
+    theirs = pack(Fault("", set(), defines=["SET_OFF_LATE"]), tmp_path, libraries)
+    said, _, summary = results(ttb, short, theirs, tmp_path / "out")
+    assert summary["coupling"]["probe"]["bridge_repeats_to"] == [0.0]
+    (warning,) = (w for w in summary["warnings"] if "does not quite come back to the state it saved" in w)
+    assert warning in said
+    assert 0.2 < float(re.search(r"at t = ([0-9.]+) s", warning)[1]) <= 0.264
+
+
+def test_a_run_that_blows_up_is_not_ok(ttb, short, tmp_path, libraries):
+    """A bridge that gains energy: every step can be taken, but nobody can believe the results."""
+    theirs = pack(Fault("", set(), defines=["GAINS_ENERGY"]), tmp_path, libraries)
+    out = tmp_path / "out"
+    done = ttb("run", short, "--bridge", theirs, "-o", out, "--quiet", "--no-probe", expect=3)
+    summary = json.loads((out / "summary.json").read_text())
+    assert (summary["status"], summary["reached_s"]) == ("blown-up", 0.3)
+    assert "cannot be believed" in summary["error"] and summary["error"] in done.stderr
+
+
 HARMLESS = ["STATIC_STATE", "SAVE_DISTURBS", "SET_ONLY_NEAR", "SET_FORGETS_INPUTS", "WRONG_DERIVATIVES", "RESET_KEEPS", "STATE_LEAK"]
 
 

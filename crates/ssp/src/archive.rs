@@ -77,8 +77,13 @@ pub fn pack(
             }
         }
     };
-    entry(STRUCTURE, Content::Text(&text))?;
-    entries.iter().try_for_each(|(name, content)| entry(name, *content))?;
+    let written = entry(STRUCTURE, Content::Text(&text))
+        .and_then(|()| entries.iter().try_for_each(|(name, content)| entry(name, *content)));
+    if let Err(error) = written {
+        // Dropped half-way it would try to finish the archive, and print that it cannot.
+        std::mem::forget(zip);
+        return Err(error);
+    }
     zip.finish().map_err(|e| failed(e.into()))?.flush().map_err(failed)?;
     temporary.persist(path).map_err(|e| failed(e.error))?;
     Ok(())

@@ -20,7 +20,8 @@ use crate::connect::probe::judge;
 use crate::error::Error;
 use crate::pictures::plot::Plot;
 use crate::prepare::{auto, fmus};
-use crate::results::coupled::CouplingReport;
+use crate::results::coupled::{CouplingReport, returned};
+use crate::results::credible::Doubts;
 use crate::results::folder::Folder;
 use crate::results::job::Job;
 use crate::results::peaks::not_finite;
@@ -235,14 +236,18 @@ fn finish(
     quiet: bool,
 ) -> Result<(), Error> {
     let outcome = outcome.and(log.plot.draw(output.folder(), &job.case.title));
-    let bad = not_finite(&log.peaks);
-    warn(bad.as_slice());
+    let report = connected.coupling.report();
+    let doubts = Doubts::of(job, &log.peaks, report);
+    let outcome = outcome.and_then(|()| doubts.verdict());
+    let noticed = not_finite(&log.peaks).into_iter().chain(returned(report)).chain(doubts.warnings);
+    let noticed: Vec<String> = noticed.collect();
+    warn(&noticed);
     let shown = Shown {
         reached: log.reached,
         seconds: log.seconds(),
         iterations: log.counted,
         coupling: Some(CouplingReport::new(&connected.coupling, &connected.probe)),
-        warnings: connected.warnings.iter().cloned().chain(bad).collect(),
+        warnings: connected.warnings.iter().cloned().chain(noticed).collect(),
         peaks: Some(&log.peaks),
     };
     let summary = Summary::new(job, Some(&outcome), &shown);

@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::Serialize;
 use ttb_coupling::probe::Probe;
-use ttb_coupling::report::Source;
+use ttb_coupling::report::{Report, Returned, Side, Source};
 use ttb_coupling::{Coupling, Method};
 
 /// How strongly the two are coupled, and by what method that was dealt with.
@@ -21,10 +21,14 @@ pub struct CouplingReport {
     pub model: Option<&'static str>,
     /// Methods that took over in the course of the run, and when.
     pub switches: Vec<Switch>,
-    /// Steps without iteration: largest force that was missing at the end of a step, relative: an estimate of the error that
-    /// a step makes in displacements. Errors of many steps may add up, and accelerations may be further off.
+    /// Steps without iteration: largest force that was missing at the end of a step, relative to all forces: an estimate, no
+    /// bound, of the relative error of displacements. Errors of many steps may add up.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub error_estimate: Option<f64>,
+    /// The same of accelerations of the deck, m/s²: as far as the missing force can accelerate it. Absent if the bridge
+    /// could not be asked how far that is.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub acceleration_error_estimate: Option<f64>,
     /// Work at the interface; absent where it is not known which force moves along which displacement.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub work: Option<WorkReport>,
@@ -73,6 +77,19 @@ pub struct Switch {
     pub method: &'static str,
 }
 
+/// A side that came back nearly to its state, in words.
+pub fn returned(report: &Report) -> Option<String> {
+    let Returned { t, side, difference } = report.returned?;
+    let (of, without) = match side {
+        Side::Bridge => ("a tenth of an axle load", "; \"roll_back\": false in the bridge's map (--map) does without"),
+        Side::TrainTrack => ("0.01 mm of the deck's motion", ""),
+    };
+    Some(format!(
+        "{side} does not quite come back to the state it saved: at t = {t} s a step from the restored state differs by \
+         {difference:.1e} of what {of} changes, and so may every step{without}"
+    ))
+}
+
 impl CouplingReport {
     /// What the coupling knows at the end of a run.
     pub fn new(coupling: &Coupling, probe: &Probe) -> Self {
@@ -89,6 +106,7 @@ impl CouplingReport {
             }),
             switches: switches.collect(),
             error_estimate: explicit,
+            acceleration_error_estimate: report.explicit_acceleration,
             work: (work.turnover > 0.0).then(|| WorkReport {
                 received: work.received,
                 imbalance: work.imbalance(),
@@ -104,7 +122,13 @@ impl CouplingReport {
         let model = self.model.map_or_else(String::new, |model| format!(", model by {model}"));
         say!("  coupling        {}{model}; ρ at the start {rho}", self.method);
         if let Some(error) = self.error_estimate {
-            say!("  NOT ITERATED    the bridge cannot roll back; error about {error:.1e}");
+            let accelerations = self.acceleration_error_estimate.map_or_else(
+                || "accelerations may be further off".to_string(),
+                |error| format!("accelerations of the deck by about {error:.1e} m/s²"),
+            );
+            say!(
+                "  NOT ITERATED    the bridge cannot roll back; displacements are off by about {error:.1e}, {accelerations}"
+            );
         }
         if let Some(WorkReport { imbalance, exchange_imbalance, .. }) = self.work {
             say!("  interface work  imbalance {imbalance:.1e}, of which the exchange makes {exchange_imbalance:.1e}");

@@ -2,6 +2,7 @@
 
 pub mod choice;
 pub mod coupled;
+pub mod credible;
 pub mod folder;
 pub mod job;
 pub mod peaks;

@@ -106,8 +106,8 @@ pub struct Summary<'a> {
 }
 
 /// Every status there is.
-const STATUSES: [&str; 8] =
-    ["running", "ok", "bad-input", "not-converged", "fmu-failed", "io-failed", "findings", "interrupted"];
+const STATUSES: [&str; 9] =
+    ["running", "ok", "bad-input", "not-converged", "blown-up", "fmu-failed", "io-failed", "findings", "interrupted"];
 
 /// Of the program, of FMI.
 #[derive(Debug, Serialize, JsonSchema)]
@@ -168,10 +168,6 @@ impl<'a> Summary<'a> {
         let peaks = shown.peaks.map(|peaks| told(peaks, job.choice.as_ref())).unwrap_or_default();
         let mut warnings = shown.warnings.clone();
         warnings.extend(job.choice.iter().flat_map(|choice| choice.warnings.clone()));
-        warnings.extend(peaks.iter().find_map(|Peak { name, not_finite_from, .. }| {
-            let time = (*not_finite_from)?;
-            Some(format!("{name} is no finite number at t = {time} s: such values are not counted in its peaks"))
-        }));
         let (stepping, reached) = (shown.seconds.stepping, shown.reached);
         Self {
             status: match outcome {
