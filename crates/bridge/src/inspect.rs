@@ -64,12 +64,22 @@ pub fn inspect(spec: &BridgeSpec) -> Result<Report, ModelError> {
     }
 }
 
-/// What the user of a scenario's bridge should know before it runs, a sentence each.
+/// Degrees of freedom up to which a check factorises a bridge; more take as long as the beginning of a run.
+const CHECKED: usize = 300_000;
+
+/// What the user of a scenario's bridge should know before it runs, a sentence each. A very large bridge is assembled only.
 ///
 /// # Errors
 /// It cannot be assembled or factorised, or rounding spoils its results.
 pub fn remarks(spec: &BridgeSpec) -> Result<Vec<String>, ModelError> {
     let Some(assembled) = assembled(spec)? else { return Ok(Vec::new()) };
+    let ndof = assembled.equations.ndof();
+    if ndof > CHECKED {
+        return Ok(vec![format!(
+            "bridge: of {ndof} degrees of freedom, it is not factorised for a check: whether it is a mechanism, and whether \
+             rounding shows, is found when it is built or inspected"
+        )]);
+    }
     let Equations { factor, names, condition, .. } = Equations::new(assembled)?;
     factor.map_err(|error| ModelError(format!("bridge: {}", loose(error, &names))))?;
     Ok(condition.map(|condition| rounding::remark(&condition)).transpose()?.flatten().into_iter().collect())
