@@ -121,6 +121,7 @@ impl Series {
             (Some(_), false, ..) => Some("give name or names, not both".into()),
             (None, true, ..) => Some("needs a name with {i}, or names".into()),
             (Some(name), true, ..) if !name.contains(INDEX) => Some(format!("name must contain {INDEX}: `{name}`")),
+            (_, _, Some(first), _) if !counts(first) => Some(uncounted(first)),
             (None, false, Some(_), _) => Some("first belongs to a name with {i}, not to names".into()),
             (.., Some(factor)) if !factor.is_finite() || factor == 0.0 => {
                 Some(format!("factor must be finite and not 0: {factor}"))
@@ -135,6 +136,19 @@ impl Read {
     pub fn at(&self, k: usize) -> String {
         numbered(&self.name, self.first, k)
     }
+}
+
+/// Numbers that variables may begin with.
+const COUNTED: u64 = 1_000_000_000;
+
+/// Whether a number may be a first one.
+pub(super) fn counts(first: i64) -> bool {
+    first.unsigned_abs() <= COUNTED
+}
+
+/// What is wrong with one that may not.
+pub(super) fn uncounted(first: i64) -> String {
+    format!("first must be a number between -{COUNTED} and {COUNTED}: {first}")
 }
 
 fn numbered(name: &str, first: i64, k: usize) -> String {

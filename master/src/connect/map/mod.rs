@@ -140,6 +140,9 @@ impl Map {
             Some(Places::Read(read)) if !read.name.contains(INDEX) => {
                 problems.push(format!("$.stations: name must contain {INDEX}: `{}`", read.name));
             }
+            Some(Places::Read(read)) if !fields::counts(read.first) => {
+                problems.push(format!("$.stations: {}", fields::uncounted(read.first)));
+            }
             _ => {}
         }
         if let Some([first, last]) = self.supports.filter(|[first, last]| *first == 0 || last < first) {
@@ -164,6 +167,15 @@ mod tests {
         assert_eq!(at(map.velocity.as_ref().unwrap(), 7), "support[7].velocity");
         assert!(serde_json::from_str::<Map>(&text.replace("first", "frist")).is_err());
         assert_eq!(serde_json::from_str::<Map>("{}").unwrap(), Map::default());
+    }
+
+    #[test]
+    fn a_first_number_that_cannot_be_counted_from_is_refused() {
+        let problems = |text: &str| serde_json::from_str::<Map>(text).unwrap().problems();
+        let text = r#"{ "force": { "name": "f{i}", "first": 9223372036854775807 },
+                        "stations": { "name": "x{i}", "first": -9223372036854775808 } }"#;
+        assert_eq!(problems(text).len(), 2, "{:?}", problems(text));
+        assert_eq!(problems(r#"{ "force": { "name": "f{i}", "first": -1000000000 } }"#), Vec::<String>::new());
     }
 
     #[test]
