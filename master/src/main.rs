@@ -5,8 +5,8 @@ use std::io::Write;
 use clap::Parser;
 use ttb::cli::{Cli, Command};
 use ttb::commands::{
-    accuracy, build, check, check_scenario, compare, export_ssp, generate, host, inspect, inspect_bridge, keeper, run,
-    schema,
+    accuracy, build, check, check_scenario, compare, export_ssp, generate, help_files, host, inspect, inspect_bridge,
+    keeper, run, schema,
 };
 use ttb::error::Error;
 use ttb::signals::Stop;
@@ -45,6 +45,8 @@ fn execute(command: Command, stop: &Stop) -> Result<(), Error> {
         Command::ExportSsp(arguments) => export_ssp::export(&arguments),
         Command::Generate(arguments) => generate::generate(&arguments),
         Command::Schema { bridge, summary } => schema::schema(bridge, summary),
+        Command::Completions { shell } => help_files::completions(shell),
+        Command::Man { output } => help_files::man(output.as_deref()),
         Command::Host { preload } => host::host(&preload),
         Command::Keeper => keeper::keep(),
     }

@@ -36,6 +36,21 @@ def test_help_teaches_the_exit_codes_and_every_command(ttb):
         assert "Usage: ttb" in ttb(command, "--help").stdout
 
 
+def test_completions_and_the_manual_come_from_the_definition_of_the_commands(ttb, tmp_path):
+    """`ttb completions` is a script that bash takes, `ttb man -o` a page for every command."""
+    script = tmp_path / "ttb.bash"
+    script.write_text(ttb("completions", "bash").stdout)
+    offered = subprocess.run(
+        ["bash", "-c", f'source {script}; COMP_WORDS=(ttb comp); COMP_CWORD=1; _ttb ttb comp ttb; echo "${{COMPREPLY[@]}}"'],
+        capture_output=True, text=True, check=True,
+    )
+    assert offered.stdout.split() == ["compare", "completions"]
+    ttb("man", "-o", tmp_path / "man1")
+    pages = {page.name for page in (tmp_path / "man1").iterdir()}
+    assert {"ttb.1", "ttb-run.1", "ttb-check.1"} <= pages and "ttb-host.1" not in pages
+    assert ".TH ttb" in ttb("man").stdout
+
+
 @pytest.mark.parametrize("arguments", [[], ["frobnicate"], ["run", "--frobnicate"], ["check-scenario"]])
 def test_a_wrong_command_is_bad_input(ttb, arguments):
     """Exit code 2 and how to use it."""

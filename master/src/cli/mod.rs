@@ -57,6 +57,11 @@ const SCHEMA_HELP: &str = "\
 Put it beside your scenarios and name it in them: \"$schema\": \"scenario.schema.json\". Editors
 then complete keys and check them.";
 
+const COMPLETIONS_HELP: &str = "\
+  ttb completions bash > ~/.local/share/bash-completion/completions/ttb
+  ttb completions fish > ~/.config/fish/completions/ttb.fish
+  ttb completions zsh  > a file _ttb in a folder of $fpath";
+
 /// The commands.
 #[derive(Debug, Subcommand)]
 pub enum Command {
@@ -109,6 +114,19 @@ pub enum Command {
         /// Print the schema of summary.json, which a run writes, instead
         #[arg(long)]
         summary: bool,
+    },
+    /// Print the shell's completion script, to be sourced or put where the shell looks for it
+    #[command(after_help = COMPLETIONS_HELP)]
+    Completions {
+        /// The shell
+        shell: clap_complete::Shell,
+    },
+    /// Print the manual page, or write one for every command
+    #[command(after_help = "ttb man | man -l -              reads it\nttb man -o ~/.local/share/man/man1")]
+    Man {
+        /// Folder for ttb.1, ttb-run.1 …; without it ttb.1 is printed
+        #[arg(short, long)]
+        output: Option<PathBuf>,
     },
     /// What `ttb run --isolate` starts to run an FMU in
     #[command(hide = true)]

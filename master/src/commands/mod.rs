@@ -7,6 +7,7 @@ pub mod check_scenario;
 pub mod compare;
 pub mod export_ssp;
 pub mod generate;
+pub mod help_files;
 pub mod host;
 pub mod inspect;
 pub mod inspect_bridge;
