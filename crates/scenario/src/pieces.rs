@@ -4,7 +4,7 @@ use serde::de::DeserializeOwned;
 use serde_json::Value;
 
 use crate::types::{
-    Bridge, CarChoice, CouplingSettings, Damping, Irregularity, Newmark, Point, Rail, RailPoint, Speed, Structure,
+    Bridge, CarChoice, CouplingSettings, Csv, Damping, Irregularity, Newmark, Point, Rail, RailPoint, Speed, Structure,
     Time, Track, TrackChoice, Train,
 };
 
@@ -31,6 +31,7 @@ pub(crate) struct Pieces {
     pub has_track_type: bool,
     pub has_step: bool,
     pub has_points: bool,
+    pub csv: Option<Csv>,
 }
 
 impl Pieces {
@@ -55,6 +56,7 @@ impl Pieces {
             has_track_type: !scenario["track"]["type"].is_null(),
             has_step: !scenario["time"]["step"].is_null(),
             has_points: !scenario["bridge"]["points"].is_null(),
+            csv: piece(&scenario["output"]["csv"]),
         }
     }
 }

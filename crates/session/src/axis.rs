@@ -31,6 +31,12 @@ impl TimeAxis {
     }
 }
 
+/// A time n h with 15 significant digits, as many as the product is right to: 0.009 for 0.009000000000000001. For what is
+/// written; steps are taken with the product itself.
+pub fn shortest(time: f64) -> f64 {
+    format!("{time:.14e}").parse().unwrap_or(time)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -27,6 +27,10 @@ pub struct Case {
     pub supports: bool,
     /// Between which times peaks count, s; `None`: always.
     pub peaks: Option<[f64; 2]>,
+    /// Patterns of the columns that results.csv holds; none: all that are kept.
+    pub columns: Vec<String>,
+    /// How results.csv and iterations.csv are written.
+    pub csv: types::Csv,
 }
 
 impl Case {
@@ -43,6 +47,8 @@ impl Case {
             every: checked.scenario.output.every as u64,
             supports: checked.scenario.output.supports,
             peaks: Some(checked.peaks),
+            columns: checked.scenario.output.columns.clone(),
+            csv: checked.scenario.output.csv,
         }
     }
 

@@ -6,6 +6,7 @@ use std::sync::atomic::AtomicBool;
 
 use ttb_contract::{Failure, Ports, Signal, Subsystem};
 use ttb_coupling::{Coupling, Method, OnFailure, Outcome, Predictor, Settings, StepInfo};
+use ttb_scenario::types::{Csv, Decimal, Separator};
 use ttb_session::observe::{IterationsCsv, Moment, Observer, Progress, ResultsCsv, Timed};
 use ttb_session::{Column, Coupled, Ended, Plan, RunError, Stepping, Table, TimeAxis, drive};
 
@@ -76,6 +77,26 @@ fn rows_are_written_every_so_often_and_at_the_end() {
     assert_eq!(results[2].split(',').nth(2).unwrap().parse::<f64>().unwrap(), 0.75 * 0.75);
     assert_eq!((iterations.len(), iterations[1].starts_with("0.25")), (8, true));
     assert_eq!(iterations[1].split(',').count(), iterations[0].split(',').count());
+}
+
+#[test]
+fn a_table_for_a_spreadsheet_has_its_separator_its_decimals_and_only_what_was_asked_for() {
+    let (mut results, mut iterations) = (Vec::new(), Vec::new());
+    let plan = Plan { axis: TimeAxis::new(0.003, 0.012), wanted: ALL, clock: &|| 0.0 };
+    let csv = Csv { separator: Separator::Semicolon, decimal: Decimal::Comma, digits: 4 };
+    let mut observers = (
+        ResultsCsv::new(&mut results, "results", 1).with(&["point[*].*".into()], csv),
+        IterationsCsv::new(&mut iterations, "iterations").with(csv),
+    );
+    drive(&mut Clockwork::default(), &plan, &mut [&mut observers.0, &mut observers.1]).expect("a run");
+    drop(observers);
+    let text = String::from_utf8(results).expect("text");
+    // 3 · 0.003 is 0.009000000000000001 in binary numbers.
+    assert_eq!(text.lines().next(), Some("time;point[mid].displacement"));
+    assert_eq!(text.lines().nth(4), Some("0,009;0,000081"));
+    let iterations = String::from_utf8(iterations).expect("text");
+    assert!(!iterations.contains('.'), "{iterations}");
+    assert_eq!(iterations.lines().nth(1).expect("a step").split(';').count(), 13);
 }
 
 #[test]

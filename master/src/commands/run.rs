@@ -148,8 +148,10 @@ fn run_connected(
     output.begin()?;
     let axis = job.case.axis();
     let [results, iterations] = ["results.csv", "iterations.csv"].map(|name| output.folder().join(name));
-    let mut results = ResultsCsv::new(Rows::create(&results)?, &results.display().to_string(), job.case.every);
-    let mut iterations = IterationsCsv::new(Rows::create(&iterations)?, &iterations.display().to_string());
+    let mut results = ResultsCsv::new(Rows::create(&results)?, &results.display().to_string(), job.case.every)
+        .with(&job.case.columns, job.case.csv);
+    let mut iterations =
+        IterationsCsv::new(Rows::create(&iterations)?, &iterations.display().to_string()).with(job.case.csv);
     let mut log = Log::new(job);
     let bar = progress_bar(axis.steps(), arguments.quiet);
     let mut tell = |n| bar.set_position(n);

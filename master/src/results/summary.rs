@@ -6,6 +6,7 @@ use std::path::Path;
 use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::{Serialize, Serializer};
 use ttb_scenario::Chosen;
+use ttb_session::axis::shortest;
 use ttb_session::observe::{ContactLoss, Iterations, Peaks};
 
 use super::choice::Choice;
@@ -191,7 +192,7 @@ impl<'a> Summary<'a> {
             chosen: &job.chosen,
             step_choice: job.choice.as_ref(),
             end_s: job.case.end,
-            reached_s: reached,
+            reached_s: shortest(reached),
             iterations: &shown.iterations,
             coupling: shown.coupling.clone(),
             seconds: shown.seconds,

@@ -74,7 +74,7 @@ fn structure(checked: &Checked, [train_track, bridge]: &[ModelDescription; 2]) -
         substeps: checked.steps().substeps,
         force_scale: checked.axle_load,
         train_track: Some(COMPONENTS[0].0.into()),
-        output: checked.scenario.output,
+        output: checked.scenario.output.clone(),
         peaks: Some(checked.peaks),
         coupling: checked.scenario.coupling,
         place: String::new(),

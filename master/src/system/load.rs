@@ -83,6 +83,8 @@ impl Opened {
             every: settings.output.every as u64,
             supports: settings.output.supports,
             peaks: settings.peaks.map(|times| times.map(|time| time.min(end))),
+            columns: settings.output.columns.clone(),
+            csv: settings.output.csv,
         };
         let job = Job {
             case,

@@ -32,6 +32,9 @@ pub(crate) fn check(pieces: &Pieces, resolved: &Resolved, placed: &Placement, re
         run::time(time, placed.end, report);
         run::substeps(time, pieces.coupling.as_ref(), report);
     }
+    if let Some(csv) = &pieces.csv {
+        run::csv(csv, report);
+    }
     if let Some(newmark) = &pieces.newmark {
         run::newmark(newmark, report);
     }

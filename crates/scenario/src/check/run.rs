@@ -4,7 +4,9 @@ use crate::limits::{GREATEST_SPEED, STEP, pre_roll_steps, steps};
 use crate::problem::Report;
 use crate::spec::TrainTrackSpec;
 use crate::travel::speed_at;
-use crate::types::{CarChoice, CouplingSettings, Irregularity, Newmark, Rail, Sending, Speed, Time};
+use crate::types::{
+    CarChoice, CouplingSettings, Csv, Decimal, Irregularity, Newmark, Rail, Sending, Separator, Speed, Time,
+};
 
 /// Wheelsets stand in order inside their car.
 pub(super) fn cars(cars: &[Option<CarChoice>], report: &mut Report) {
@@ -74,6 +76,14 @@ pub(super) fn time(time: &Time, end: Option<f64>, report: &mut Report) {
     }
     if let Some(error) = time.error {
         report.problem("$.time.error", "belongs to a step that is chosen: \"step\": \"auto\"", error);
+    }
+}
+
+/// Columns can be told from decimals.
+pub(super) fn csv(csv: &Csv, report: &mut Report) {
+    if csv.decimal == Decimal::Comma && csv.separator == Separator::Comma {
+        let rule = "a decimal comma needs another separator: \"semicolon\" or \"tab\"";
+        report.problem("$.output.csv.separator", rule, "comma");
     }
 }
 

@@ -2,6 +2,7 @@
 
 mod bridge;
 mod coupling;
+mod csv;
 mod elements;
 mod frame;
 mod freedom;
@@ -16,6 +17,7 @@ mod train;
 
 pub use bridge::*;
 pub use coupling::*;
+pub use csv::*;
 pub use elements::*;
 pub use frame::*;
 pub use freedom::*;

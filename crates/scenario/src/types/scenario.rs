@@ -5,13 +5,14 @@ use serde::{Deserialize, Serialize};
 
 use super::bridge::Bridge;
 use super::coupling::CouplingSettings;
+use super::csv::Csv;
 use super::irregularity::Irregularity;
 use super::time::Time;
 use super::track::Track;
 use super::train::{Contact, Train};
 
-/// What goes into results.csv.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+/// What goes into results.csv, and how.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[schemars(deny_unknown_fields)]
 #[serde(default)]
 pub struct Output {
@@ -22,6 +23,11 @@ pub struct Output {
     pub supports: bool,
     /// From when on peaks count: `bridge` (default), `start`, or a time in s.
     pub peaks_from: PeaksFrom,
+    /// Only these columns of results.csv, by name; `*` stands for anything: `car[*].acceleration`. Peaks are kept of all.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub columns: Vec<String>,
+    /// How numbers are written.
+    pub csv: Csv,
 }
 
 /// From when on peaks count.
@@ -60,7 +66,8 @@ impl JsonSchema for PeaksFrom {
 
 impl Default for Output {
     fn default() -> Self {
-        Self { every: 1, supports: false, peaks_from: PeaksFrom::Word(PeaksWord::Bridge) }
+        let peaks_from = PeaksFrom::Word(PeaksWord::Bridge);
+        Self { every: 1, supports: false, peaks_from, columns: Vec::new(), csv: Csv::default() }
     }
 }
 

@@ -49,6 +49,11 @@ fn faults_against_the_schema_are_all_found() {
                 &[("/output/supports", "1")],
                 &[("$.output.supports", "must be true or false")],
             ),
+            case(
+                "a decimal comma between commas",
+                &[("/output", r#"{ "csv": { "decimal": "comma" } }"#)],
+                &[("$.output.csv.separator", "a decimal comma needs another separator")],
+            ),
             case("fraction for a count", &[("/track/bays", "400.5")], &[("$.track.bays", "must be a whole number")]),
             case("negative count", &[("/track/bays", "-400")], &[("$.track.bays", "must be at least 2")]),
             case("scenario is a list", &[("/train", "[]")], &[("$.train", "must be an object")]),

@@ -1,5 +1,6 @@
 //! Those who look on while steps are taken: results as a table in memory, as CSV, as extremes; iterations counted; time spent.
 
+mod chosen;
 mod csv;
 mod iterations;
 mod peaks;

@@ -4,8 +4,9 @@ use std::collections::HashMap;
 use std::ops::ControlFlow;
 
 use schemars::JsonSchema;
-use serde::Serialize;
+use serde::{Serialize, Serializer};
 
+use crate::axis::shortest;
 use crate::column::{Column, Kind, Of};
 use crate::error::RunError;
 use crate::observe::{Begin, GO_ON, Moment, Observer};
@@ -16,11 +17,16 @@ use crate::quantity::Quantity;
 pub struct Extreme {
     /// Value in the column's unit.
     pub value: f64,
-    /// s.
+    /// s; written as the shortest form of a multiple of the step.
+    #[serde(serialize_with = "written")]
     pub time: f64,
     /// Abscissa of the wheel, m.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub x: Option<f64>,
+}
+
+fn written<S: Serializer>(time: &f64, serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.serialize_f64(shortest(*time))
 }
 
 /// Both extremes of a column.
