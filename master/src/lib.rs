@@ -7,6 +7,7 @@
 //! connect                 from FMU files to two coupled subsystems
 //! results                 what a run leaves: rows, peaks, summary
 //! pictures                histories and errors drawn as SVG and PNG
+//! view                    files for viewers of finite-element models
 //! prepare                 from a scenario to its FMUs and its steps
 //! system                  system structures (SSP): written, read
 //! commands                one file or folder a verb
@@ -43,3 +44,4 @@ pub mod printed;
 pub mod results;
 pub mod signals;
 pub mod system;
+pub mod view;

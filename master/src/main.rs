@@ -6,7 +6,7 @@ use clap::Parser;
 use ttb::cli::{Cli, Command};
 use ttb::commands::{
     accuracy, build, check, check_scenario, compare, export_ssp, generate, help_files, host, inspect, inspect_bridge,
-    keeper, run, schema,
+    keeper, run, schema, view,
 };
 use ttb::error::Error;
 use ttb::signals::Stop;
@@ -44,6 +44,7 @@ fn execute(command: Command, stop: &Stop) -> Result<(), Error> {
         Command::InspectBridge { file, set } => inspect_bridge::inspect(&file, &set),
         Command::ExportSsp(arguments) => export_ssp::export(&arguments),
         Command::Generate(arguments) => generate::generate(&arguments),
+        Command::View(arguments) => view::view(&arguments, stop),
         Command::Schema { bridge, summary } => schema::schema(bridge, summary),
         Command::Completions { shell } => help_files::completions(shell),
         Command::Man { output } => help_files::man(output.as_deref()),

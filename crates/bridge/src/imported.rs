@@ -7,6 +7,7 @@ use ttb_import::{Dofs, Files, Imported, Row};
 use ttb_sparse::Assembly;
 
 use crate::assembled::{Assembled, Monitor, Names};
+use crate::drawing::{Outline, Weight};
 
 /// Stations closer than this to a support of the file are that support, m.
 const NEAR: f64 = 1e-6;
@@ -72,4 +73,32 @@ fn support(supports: &[(f64, Row)], number: usize, x: f64) -> Result<Row, ModelE
     let share = (x - left) / (right - left);
     let part = |row: &Row, share: f64| row.iter().map(|(dof, w)| (*dof, share * w)).collect::<Row>();
     Ok([part(before, 1.0 - share), part(row, share)].concat())
+}
+
+/// Nodes of imported matrices as points, each a cell of its own: which elements joined them is not in the matrices.
+///
+/// # Errors
+/// There is no table of degrees of freedom, or it has no coordinates.
+pub fn outline(imported: &Imported) -> Result<Outline, ModelError> {
+    let dofs = imported.dofs.as_ref().filter(|dofs| dofs.coordinates.is_some());
+    let Some((dofs, Some(points))) = dofs.map(|dofs| (dofs, dofs.coordinates.clone())) else {
+        let text = "bridge: only nodes with coordinates can be drawn: give bridge.structure.dofs with columns x, y, z";
+        return Err(ModelError(text.into()));
+    };
+    let mut rows = vec![<[Row; 3]>::default(); points.len()];
+    for ((row, dof), node) in (0..).zip(&dofs.dofs).zip(&dofs.node_of) {
+        if let Some(along) = rows[*node as usize].get_mut(usize::from(dof.freedom)) {
+            along.push((row, 1.0));
+        }
+    }
+    let cells = (0..points.len() as u32).map(|node| vec![node]).collect();
+    // The rows of the supports are displacements down.
+    let mut down = [0.0; 3];
+    for (dof, weight) in imported.supports.iter().flat_map(|(_, row)| row) {
+        if let Some(sum) = down.get_mut(usize::from(dofs.dofs[*dof as usize].freedom)) {
+            *sum += weight;
+        }
+    }
+    let vertical = (0..3).max_by(|a, b| down[*a].abs().total_cmp(&down[*b].abs())).unwrap_or(2);
+    Ok(Outline { points, cells, rows, weight: Weight::Down(vertical, down[vertical].signum()) })
 }

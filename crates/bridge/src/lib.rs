@@ -6,6 +6,7 @@
 pub mod assembled;
 pub mod beams;
 pub mod deck;
+pub mod drawing;
 pub mod frame;
 pub mod full;
 pub mod imported;

@@ -10,6 +10,7 @@ mod inspect;
 mod run;
 mod seconds;
 mod set;
+mod view;
 
 use std::path::PathBuf;
 
@@ -24,6 +25,7 @@ pub use generate::{Generate, Generated};
 pub use inspect::Inspect;
 pub use run::{Isolate, Run};
 pub use set::Set;
+pub use view::View;
 
 /// Train–track–bridge co-simulation.
 ///
@@ -105,6 +107,9 @@ pub enum Command {
     Inspect(Inspect),
     /// Make a bridge model of shells and beams, and a scenario that runs a train over it
     Generate(Generate),
+    /// Write the bridge for ParaView: sag under its own weight, natural modes, the crossing of the train
+    #[command(after_help = view::HELP)]
+    View(View),
     /// Print the JSON Schema of scenario files
     #[command(after_help = SCHEMA_HELP)]
     Schema {

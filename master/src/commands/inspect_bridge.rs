@@ -25,7 +25,7 @@ pub fn inspect(file: &Path, set: &Set) -> Result<(), Error> {
 }
 
 /// A scenario has a train, a model has nodes. What is neither is read as a scenario, whose checks say what is missing.
-fn is_model(file: &Path) -> bool {
+pub(super) fn is_model(file: &Path) -> bool {
     #[derive(serde::Deserialize)]
     struct Either {
         train: Option<serde::de::IgnoredAny>,

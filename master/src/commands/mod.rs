@@ -16,3 +16,4 @@ mod output;
 mod progress;
 pub mod run;
 pub mod schema;
+pub mod view;

@@ -79,7 +79,7 @@ fn size(model: &Model) -> f64 {
     (0..3).map(extent).fold(0.0, f64::max)
 }
 
-struct Audit<'a> {
+pub(super) struct Audit<'a> {
     model: &'a Model,
     freedoms: &'a Freedoms,
     elements: usize,
@@ -87,16 +87,17 @@ struct Audit<'a> {
     /// m x_c, m y_c, m z_c.
     moments: [f64; 3],
     /// f over the degrees of freedom.
-    load: Vec<f64>,
+    pub load: Vec<f64>,
 }
 
 impl<'a> Audit<'a> {
-    fn new(model: &'a Model, freedoms: &'a Freedoms) -> Self {
+    pub fn new(model: &'a Model, freedoms: &'a Freedoms) -> Self {
         let load = vec![0.0; freedoms.motions.len()];
         Self { model, freedoms, elements: 0, mass: 0.0, moments: [0.0; 3], load }
     }
 
-    fn weigh(&mut self, element: &Placed, matrices: &Matrices) {
+    /// Adds an element's mass and weight.
+    pub fn weigh(&mut self, element: &Placed, matrices: &Matrices) {
         self.elements += 1;
         let rigid = |freedom: Freedom| rigid(self.model, element, freedom);
         let (down, turned) = (product(matrices, &matrices.m, &rigid(Freedom::Z)), rigid(Freedom::Ry));

@@ -14,6 +14,7 @@ mod diagonal;
 mod elements;
 mod freedoms;
 mod kind;
+mod outline;
 mod report;
 mod solids;
 mod tied;
@@ -32,6 +33,7 @@ use kind::Kind;
 use track::Track;
 
 pub use audit::{Statics, self_check};
+pub use outline::outline;
 pub use report::{Reaction, Reactions, SelfCheck};
 
 /// Of the motions that a mechanism leaves loose, so many are named.
