@@ -6,7 +6,7 @@ use clap::Parser;
 use ttb::cli::{Cli, Command};
 use ttb::commands::{
     accuracy, build, check, check_scenario, compare, export_ssp, generate, help_files, host, inspect, inspect_bridge,
-    keeper, run, schema, view,
+    keeper, new, run, schema, view,
 };
 use ttb::error::Error;
 use ttb::signals::Stop;
@@ -35,6 +35,7 @@ fn main() {
 fn execute(command: Command, stop: &Stop) -> Result<(), Error> {
     match command {
         Command::Run(arguments) => run::run(&arguments, stop),
+        Command::New(arguments) => new::new(&arguments),
         Command::Build(arguments) => build::build(&arguments, stop),
         Command::CheckScenario { scenario, set } => check_scenario::check(&scenario, &set),
         Command::Check(arguments) => check::check(&arguments),

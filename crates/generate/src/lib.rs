@@ -5,6 +5,7 @@
 //! | [`cable_stayed`] | one tower, two planes of cables, 112 + 80 + 32 m, and a simply supported girder at either end |
 //! | [`viaduct`], [`simple_span`] | simply supported girders in a row, or one of them |
 //! | [`cable_stayed_scenario`], [`viaduct_scenario`] | a train over them, as the text of a scenario file |
+//! | [`start`] | first files of a project: a scenario with comments |
 //! | [`text`] | a model as the text of a file |
 //! | [`measure`] | what a model weighs, how many degrees of freedom it has |
 //!
@@ -23,6 +24,7 @@ mod piers;
 mod plan;
 mod scenario;
 mod section;
+pub mod start;
 mod text;
 mod tower;
 mod trough;

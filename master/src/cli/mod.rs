@@ -7,6 +7,7 @@ mod compare;
 mod export_ssp;
 mod generate;
 mod inspect;
+mod new;
 mod run;
 mod seconds;
 mod set;
@@ -23,6 +24,7 @@ pub use compare::{Budget, Compare, Compared, Fine};
 pub use export_ssp::ExportSsp;
 pub use generate::{Generate, Generated};
 pub use inspect::Inspect;
+pub use new::{Begin, New};
 pub use run::{Isolate, Run};
 pub use set::Set;
 pub use view::View;
@@ -70,6 +72,9 @@ pub enum Command {
     /// Run a scenario: build its FMUs, couple them, write results. Or run a system structure (.ssp)
     #[command(after_help = run::HELP)]
     Run(Run),
+    /// Begin: write a scenario that runs at once, with comments that say what to put in place of each number
+    #[command(after_help = new::HELP)]
+    New(New),
     /// Only build TrainTrack.fmu and Bridge.fmu
     Build(Build),
     /// Write a scenario as a system structure (SSP 1.0): both FMUs, connections and coupling settings in one file

@@ -4,6 +4,8 @@ use std::path::PathBuf;
 
 use clap::Args;
 
+use super::set::Set;
+
 pub(super) const HELP: &str = "\
 The output folder gets
   bridge.vtu      the model with fields on its points: sag under its own weight (m), the natural
@@ -32,6 +34,9 @@ pub struct View {
     /// Moments of the crossing, evenly spaced
     #[arg(long, default_value_t = 100, value_parser = clap::value_parser!(u64).range(1..), requires = "crossing")]
     pub frames: u64,
+    /// Other values of the scenario
+    #[command(flatten)]
+    pub set: Set,
     /// No progress
     #[arg(short, long)]
     pub quiet: bool,

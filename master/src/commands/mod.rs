@@ -12,6 +12,7 @@ pub mod host;
 pub mod inspect;
 pub mod inspect_bridge;
 pub mod keeper;
+pub mod new;
 mod output;
 mod progress;
 pub mod run;

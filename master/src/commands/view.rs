@@ -11,7 +11,7 @@ use ttb_session::observe::Progress;
 
 use super::inspect_bridge::is_model;
 use super::progress::progress_bar;
-use crate::cli::View;
+use crate::cli::{Set, View};
 use crate::error::Error;
 use crate::prepare::fmus;
 use crate::signals::Stop;
@@ -26,7 +26,10 @@ const RESOLVED: &str = "scenario.resolved.json";
 pub fn view(arguments: &View, stop: &Stop) -> Result<(), Error> {
     let inside = arguments.what.join(RESOLVED);
     let file: PathBuf = if arguments.what.is_dir() { inside } else { arguments.what.clone() };
-    let (spec, checked) = if is_model(&file) { (of_model(&file)?, None) } else { of_scenario(&file)? };
+    let (spec, checked) = if is_model(&file) { (of_model(&file)?, None) } else { of_scenario(&file, &arguments.set)? };
+    if checked.is_none() && !arguments.set.set.is_empty() {
+        return Err(Error::Input(format!("--set: {} is a model file and no scenario", file.display())));
+    }
     if arguments.crossing && checked.is_none() {
         let text = "a model file has no train: give a scenario for --crossing";
         return Err(Error::Input(format!("{}: {text}", file.display())));
@@ -48,8 +51,8 @@ pub fn view(arguments: &View, stop: &Stop) -> Result<(), Error> {
     }
 }
 
-fn of_scenario(file: &Path) -> Result<(BridgeSpec, Option<Checked>), Error> {
-    let checked = fmus::scenario(Some(file))?;
+fn of_scenario(file: &Path, set: &Set) -> Result<(BridgeSpec, Option<Checked>), Error> {
+    let checked = fmus::scenario(Some(file), set)?;
     Ok((checked.bridge.clone(), Some(checked)))
 }
 
