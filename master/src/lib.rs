@@ -10,6 +10,7 @@
 //! view                    files for viewers of finite-element models
 //! prepare                 from a scenario to its FMUs and its steps
 //! system                  system structures (SSP): written, read
+//! assess                  from runs to verdicts
 //! commands                one file or folder a verb
 //! ```
 //!
@@ -32,6 +33,7 @@ macro_rules! note {
     }};
 }
 
+pub mod assess;
 pub mod cli;
 pub mod clock;
 pub mod commands;

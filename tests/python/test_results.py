@@ -13,8 +13,8 @@ from fmpy.util import read_csv
 from jsonschema import Draft202012Validator
 from scenario import changed
 
-FILES = ["Bridge.fmu", "TrainTrack.fmu", "iterations.csv", "results.csv", "results.png", "results.svg"]
-FILES += ["scenario.resolved.json", "summary.json"]
+FILES = ["Bridge.fmu", "TrainTrack.fmu", "assessment.json", "iterations.csv", "peaks.csv", "results.csv"]
+FILES += ["results.png", "results.svg", "runs.csv", "scenario.resolved.json", "summary.json"]
 
 
 @pytest.fixture(scope="module")

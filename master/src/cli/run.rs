@@ -10,6 +10,7 @@ pub(super) const HELP: &str = "\
 The output folder gets
   results.csv             time, then every output by its FMI name, SI units
   iterations.csv          one row a step: iterations, residual, contraction, roll-backs, seconds
+  runs.csv, peaks.csv     reduced values that criteria judge: ttb report FOLDER
   summary.json            peaks with place and time, iterations, timing, every file read with its hash
   results.svg, .png       deck, cars and wheels over time
   scenario.resolved.json  the scenario with all defaults and the steps that were taken; maps likewise
@@ -60,6 +61,11 @@ pub struct Run {
     /// Load this library before the FMUs, e.g. libpython3.11.so.1.0 for those made with PythonFMU
     #[arg(long, value_name = "LIB")]
     pub preload: Vec<PathBuf>,
+    /// Limits whose filters are applied to every step: bundled files and your own, later ones override single entries
+    ///
+    /// `ttb list limits` shows the bundled ones. The reduced values go into peaks.csv; `ttb report FOLDER` judges them.
+    #[arg(long, value_name = "A,B.json", value_delimiter = ',')]
+    pub limits: Vec<String>,
     /// Skip the trial steps before the run that test roll-back, signs and units of the FMUs
     #[arg(long)]
     pub no_probe: bool,

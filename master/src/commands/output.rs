@@ -16,8 +16,19 @@ use crate::results::summary::{Shown, Summary};
 const SUMMARY: &str = "summary.json";
 const SCENARIO: &str = "scenario.resolved.json";
 /// What a run writes besides, and copies of its maps: `bridge-map.json`, `bridge-map-2.json` …
-const FILES: [&str; 6] =
-    ["results.csv", "iterations.csv", "results.svg", "results.png", "TrainTrack.fmu", "Bridge.fmu"];
+const FILES: [&str; 11] = [
+    "results.csv",
+    "iterations.csv",
+    "results.svg",
+    "results.png",
+    "TrainTrack.fmu",
+    "Bridge.fmu",
+    "runs.csv",
+    "peaks.csv",
+    "assessment.json",
+    "verdicts.json",
+    "report.html",
+];
 const MAP: &str = "bridge-map";
 
 /// The folder of a run and what belongs into it.

@@ -3,14 +3,19 @@
 use std::path::Path;
 use std::time::Instant;
 
+use ttb_assessment::{Criteria, Facts};
 use ttb_contract::Subsystem;
 use ttb_coupling::probe::Probe;
 use ttb_fmi::temporary::Temporary;
+use ttb_scenario::Checked;
 use ttb_session::observe::{Iterations, IterationsCsv, Peaks, Progress, ResultsCsv, Timed};
 use ttb_session::{Coupled, Ended, Plan, drive};
 
 use super::output::Output;
 use super::progress::progress_bar;
+use crate::assess::run::{About, write as write_assessment};
+use crate::assess::watch::Watch;
+use crate::assess::{facts, limits};
 use crate::cli::Run;
 use crate::connect::connected::{Connected, Given, connect};
 use crate::connect::isolate::Isolated;
@@ -34,15 +39,16 @@ use crate::system::Opened;
 /// The command.
 pub fn run(arguments: &Run, stop: &Stop) -> Result<(), Error> {
     let isolated = Isolated::new(arguments)?;
+    let criteria = limits::load(&arguments.limits)?;
     preload::load(&arguments.preload)?;
     let done = match arguments.system() {
-        Some(path) => run_system(path, arguments, &isolated, stop),
-        None => run_scenario(arguments, &isolated, stop),
+        Some(path) => run_system(path, arguments, &isolated, &criteria, stop),
+        None => run_scenario(arguments, &isolated, &criteria, stop),
     };
     done.map_err(|error| isolated.advise(error, arguments))
 }
 
-fn run_scenario(arguments: &Run, isolated: &Isolated, stop: &Stop) -> Result<(), Error> {
+fn run_scenario(arguments: &Run, isolated: &Isolated, criteria: &Criteria, stop: &Stop) -> Result<(), Error> {
     let mut checked = fmus::scenario(arguments.scenario.as_deref(), &arguments.set)?;
     for given in arguments.train_track.iter().chain(&arguments.bridge) {
         std::fs::File::open(given).map_err(|e| Error::Input(format!("{}: {e}", given.display())))?;
@@ -69,9 +75,11 @@ fn run_scenario(arguments: &Run, isolated: &Isolated, stop: &Stop) -> Result<(),
         None => fmus::train_track(&checked, place.path()).inspect(|path| built.push(path.clone()))?,
     };
     let mut bridges = arguments.bridge.clone();
+    let mut known = facts::of(&checked, None);
     if bridges.is_empty() {
         let ready = ready.map_or_else(|| fmus::prepared_bridge(&checked), Ok)?;
         checked.warnings.extend(ready.remarks().iter().cloned());
+        known = facts::of(&checked, Some(&ready));
         bridges.push(fmus::bridge(&ready, &checked, place.path()).inspect(|path| built.push(path.clone()))?);
     }
     let bridges: Vec<Given> = bridges.iter().enumerate().map(|(k, path)| Given { path, map: map(k) }).collect();
@@ -79,14 +87,22 @@ fn run_scenario(arguments: &Run, isolated: &Isolated, stop: &Stop) -> Result<(),
     let at = arguments.scenario.as_deref().and_then(Path::parent).unwrap_or(Path::new(""));
     let job = Job::new(&checked, choice, provenance);
     let output = Output::new(&job, folder, arguments, built).with(resolved(&checked, at), &maps);
+    let judged = Judged { criteria, facts: known, checked: Some(&checked) };
     let done = run_trusting(
         |trusted| connect(&train_track, &bridges, &checked, isolated, trusted),
         |connected| {
             warn(&connected.warnings[told..]);
-            run_connected(&job, connected, &output, arguments, stop, begin)
+            run_connected(&job, connected, &output, &judged, arguments, stop, begin)
         },
     );
     output.close(done)
+}
+
+/// What a run is judged by.
+struct Judged<'a> {
+    criteria: &'a Criteria,
+    facts: Facts,
+    checked: Option<&'a Checked>,
 }
 
 /// Runs with bridges as they describe themselves; should it turn out that one does not roll back, once more with other
@@ -112,7 +128,13 @@ fn warn(warnings: &[String]) {
     warnings.iter().for_each(|warning| note!("ttb: warning: {warning}"));
 }
 
-fn run_system(path: &Path, arguments: &Run, isolated: &Isolated, stop: &Stop) -> Result<(), Error> {
+fn run_system(
+    path: &Path,
+    arguments: &Run,
+    isolated: &Isolated,
+    criteria: &Criteria,
+    stop: &Stop,
+) -> Result<(), Error> {
     if !arguments.set.set.is_empty() {
         return Err(Error::Input("--set changes a scenario; an .ssp file has its parameters in itself".into()));
     }
@@ -125,11 +147,12 @@ fn run_system(path: &Path, arguments: &Run, isolated: &Isolated, stop: &Stop) ->
     let mut opened = Opened::open(path, isolated)?;
     opened.job.provenance = Provenance::new(arguments, None)?;
     let output = Output::new(&opened.job, Folder::claim(&arguments.output, stop)?, arguments, Vec::new());
+    let judged = Judged { criteria, facts: Facts::default(), checked: None };
     let done = run_trusting(
         |trusted| opened.connect(isolated, trusted),
         |connected| {
             warn(&connected.warnings);
-            run_connected(&opened.job, connected, &output, arguments, stop, begin)
+            run_connected(&opened.job, connected, &output, &judged, arguments, stop, begin)
         },
     );
     output.close(done)
@@ -140,6 +163,7 @@ fn run_connected(
     job: &Job,
     connected: &mut Connected,
     output: &Output,
+    judged: &Judged,
     arguments: &Run,
     stop: &Stop,
     begin: Instant,
@@ -177,6 +201,7 @@ fn run_connected(
             &mut results,
             &mut log.peaks,
             &mut log.plot,
+            &mut log.watch,
             &mut log.timed,
             &mut progress,
         ],
@@ -192,7 +217,7 @@ fn run_connected(
     if matches!(outcome, Err(Error::NoReturn(_))) {
         return outcome;
     }
-    finish(job, log, outcome, connected, output, arguments.quiet)
+    finish(job, log, outcome, connected, output, judged, arguments.quiet)
 }
 
 /// What was seen of a run.
@@ -200,6 +225,7 @@ struct Log {
     counted: Iterations,
     peaks: Peaks,
     plot: Plot,
+    watch: Watch,
     timed: Timed,
     reached: f64,
     /// Seconds from the begin of the command to the end of the run.
@@ -209,7 +235,15 @@ struct Log {
 impl Log {
     fn new(job: &Job) -> Self {
         let (counted, peaks, timed) = (Iterations::default(), Peaks::between(job.case.peaks), Timed::default());
-        Self { counted, peaks, plot: Plot::new(job.scene.clone()), timed, reached: 0.0, ended: 0.0 }
+        Self {
+            counted,
+            peaks,
+            plot: Plot::new(job.scene.clone()),
+            watch: Watch::default(),
+            timed,
+            reached: 0.0,
+            ended: 0.0,
+        }
     }
 
     fn seconds(&self) -> Seconds {
@@ -231,16 +265,23 @@ impl Log {
 /// Summary and picture, also of a run that failed; its error is passed on.
 fn finish(
     job: &Job,
-    log: Log,
+    mut log: Log,
     outcome: Result<(), Error>,
     connected: &Connected,
     output: &Output,
+    judged: &Judged,
     quiet: bool,
 ) -> Result<(), Error> {
     let outcome = outcome.and(log.plot.draw(output.folder(), &job.case.title));
     let report = connected.coupling.report();
     let doubts = Doubts::of(job, &log.peaks, report);
     let outcome = outcome.and_then(|()| doubts.verdict());
+    // Neither half a run nor one that blew up is judged.
+    let outcome = outcome.and_then(|()| {
+        let histories = std::mem::take(&mut log.watch).histories(judged.checked, &job.scene);
+        let about = About { hash: &job.hash(), title: &job.case.title, step: job.case.step, checked: judged.checked };
+        write_assessment(output.folder(), &about, &histories, judged.criteria, &judged.facts)
+    });
     let noticed = not_finite(&log.peaks).into_iter().chain(returned(report)).chain(doubts.warnings);
     let noticed: Vec<String> = noticed.collect();
     warn(&noticed);

@@ -70,7 +70,7 @@ fn contact(axle: &AxleHistory, histories: &Histories, record: Record, way: f64, 
     };
     let rows = |quantity, of: &[Loss], out: &mut Reduced| {
         let place = place(quantity, axle.number, "s");
-        let seconds: f64 = of.iter().map(|loss| loss.seconds(record.rate)).sum();
+        let seconds = of.iter().map(|loss| loss.seconds(record.rate)).fold(0.0, |sum, one| sum + one);
         out.peaks.push(Peak { unit: "1".into(), ..place.row(RAW, Statistic::Count, of.len() as f64) });
         out.peaks.push(place.row(RAW, Statistic::Sum, seconds));
         let longest = of.iter().reduce(|longest, one| if one.count > longest.count { one } else { longest });

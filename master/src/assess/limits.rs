@@ -1,0 +1,41 @@
+//! Limits by name: bundled files and the user's own, in the order of the list.
+
+use std::path::Path;
+
+use ttb_assessment::Criteria;
+use ttb_assessment::criterion::{self, DEFAULT};
+
+use crate::error::Error;
+
+/// The criteria of `--limits A,B,FILE.json`; without any the default set. A name that ends in `.json` is a file.
+pub fn load(names: &[String]) -> Result<Criteria, Error> {
+    let default: Vec<String> = DEFAULT.iter().map(|name| (*name).to_string()).collect();
+    // A user's file alone overrides entries of the default set.
+    let only_own = names.iter().all(|name| is_file(name));
+    let all = if only_own { [default.as_slice(), names].concat() } else { names.to_vec() };
+    let mut texts = Vec::with_capacity(all.len());
+    let mut problems = Vec::new();
+    for name in &all {
+        match (is_file(name), criterion::text(name)) {
+            (false, Some(text)) => texts.push((name.as_str(), text.to_string())),
+            (true, _) => match std::fs::read_to_string(Path::new(name)) {
+                Ok(text) => texts.push((name.as_str(), text)),
+                Err(error) => problems.push(format!("{name}: {error}")),
+            },
+            (false, None) => {
+                problems
+                    .extend(Criteria::bundled(&[name]).err().into_iter().flatten().map(|problem| problem.to_string()));
+            }
+        }
+    }
+    let read = Criteria::read(texts.iter().map(|(name, text)| (*name, text.as_str())));
+    problems.extend(read.as_ref().err().into_iter().flatten().map(ToString::to_string));
+    match read {
+        Ok(criteria) if problems.is_empty() => Ok(criteria),
+        _ => Err(Error::Input(problems.join("\n"))),
+    }
+}
+
+fn is_file(name: &str) -> bool {
+    Path::new(name).extension().is_some_and(|ending| ending.eq_ignore_ascii_case("json"))
+}

@@ -1,0 +1,7 @@
+//! From runs to verdicts: what is watched during a run, the tables of a folder, limits and facts.
+
+pub mod facts;
+pub mod limits;
+pub mod run;
+pub mod tables;
+pub mod watch;

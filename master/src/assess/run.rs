@@ -1,0 +1,115 @@
+//! The assessment of one run: its tables beside its results, so that a report of its folder can be made at any time.
+
+use std::path::Path;
+
+use serde::{Deserialize, Serialize};
+use ttb_assessment::{Basis, Criteria, Facts, Histories, Loads, Missing, Rail, Run, reduce};
+use ttb_scenario::Checked;
+use ttb_scenario::spec::Profile;
+use ttb_scenario::types::{CarChoice, Speed};
+
+use super::tables;
+use crate::error::Error;
+use crate::files;
+
+/// Name of the file beside the tables.
+pub const FILE: &str = "assessment.json";
+
+/// What a report must know that is in no table.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Assessment {
+    /// For people.
+    pub title: String,
+    /// Bridge and track.
+    pub facts: Facts,
+    /// Limits files that the filters were made for.
+    pub limits: Vec<String>,
+    /// What could not be made.
+    pub missing: Vec<Missing>,
+}
+
+/// What a run is for its tables.
+pub struct About<'a> {
+    /// Hash of all that decides its results.
+    pub hash: &'a str,
+    /// For people.
+    pub title: &'a str,
+    /// Step, s.
+    pub step: f64,
+    /// The scenario; none of a system structure.
+    pub checked: Option<&'a Checked>,
+}
+
+/// Writes the tables of a run into its folder.
+pub fn write(
+    folder: &Path,
+    about: &About,
+    histories: &Histories,
+    criteria: &Criteria,
+    facts: &Facts,
+) -> Result<(), Error> {
+    let reduced = reduce(histories, criteria, facts);
+    tables::write(folder, &run(about), about.step, &reduced.peaks)?;
+    let assessment = Assessment {
+        title: about.title.into(),
+        facts: facts.clone(),
+        limits: criteria.files.clone(),
+        missing: reduced.missing,
+    };
+    files::write_json(&folder.join(FILE), &assessment)
+}
+
+fn run(about: &About) -> Run {
+    let run_id = about.hash.chars().take(16).collect();
+    let Some(checked) = about.checked else {
+        let basis = Basis { loads: Loads::Vehicles, rail: Rail::Rough };
+        let (train, speed_km_h, variant, seed) = ("of the system".into(), None, String::new(), String::new());
+        return Run { run_id, train, speed_km_h, variant, seed, basis, refined: false };
+    };
+    let spec = &checked.train_track;
+    let smooth = matches!(spec.irregularity, Profile::None) || spec.irregularity_scale == 0.0;
+    let seed = match spec.irregularity {
+        Profile::Spectrum { seed, .. } => seed.to_string(),
+        _ if smooth => "smooth".into(),
+        _ => String::new(),
+    };
+    let basis = Basis { loads: Loads::Vehicles, rail: if smooth { Rail::Smooth } else { Rail::Rough } };
+    Run {
+        run_id,
+        train: train(checked),
+        speed_km_h: speed(checked),
+        variant: String::new(),
+        seed,
+        basis,
+        refined: false,
+    }
+}
+
+/// Constant speed, km/h, as the scenario has it.
+fn speed(checked: &Checked) -> Option<f64> {
+    match &checked.scenario.train.speed {
+        Speed::KmH(v) => Some(*v),
+        Speed::MS(v) => Some(v * 3.6),
+        Speed::Profile(points) => {
+            points.windows(2).all(|p| p[0][1] == p[1][1]).then(|| points.first().map(|p| p[1] * 3.6))?
+        }
+    }
+}
+
+/// The names of its cars, equal ones counted.
+fn train(checked: &Checked) -> String {
+    let names = checked.scenario.train.cars.iter().map(|car| match car {
+        CarChoice::Bundled(name) => name.clone(),
+        CarChoice::Data(car) if car.name.is_empty() => "car".into(),
+        CarChoice::Data(car) => car.name.clone(),
+    });
+    let mut counted: Vec<(String, usize)> = Vec::new();
+    for name in names {
+        match counted.last_mut() {
+            Some((last, count)) if *last == name => *count += 1,
+            _ => counted.push((name, 1)),
+        }
+    }
+    let parts = counted.into_iter().map(|(name, count)| if count > 1 { format!("{count} × {name}") } else { name });
+    parts.collect::<Vec<_>>().join(" + ")
+}

@@ -1,0 +1,127 @@
+//! Keeps the histories that criteria judge during a run, every step, whichever FMUs take it.
+
+use std::ops::ControlFlow;
+
+use ttb_assessment::reduce::{AxleHistory, CarHistory, Histories, PointHistory};
+use ttb_scenario::Checked;
+use ttb_session::column::Column;
+use ttb_session::{Begin, Moment, Observer, Of, Quantity, RunError};
+
+use crate::results::scene::Scene;
+
+/// An observer that keeps what is judged.
+#[derive(Default)]
+pub struct Watch {
+    time: Vec<f64>,
+    kept: Vec<Kept>,
+}
+
+struct Kept {
+    at: usize,
+    column: Column,
+    values: Vec<f64>,
+}
+
+fn is_judged(column: &Column) -> bool {
+    use Quantity as Q;
+    match column.of {
+        Of::Point(_) => matches!(column.quantity, Q::Displacement | Q::Acceleration | Q::Moment),
+        Of::Wheel(_) => matches!(column.quantity, Q::ContactForce | Q::Position),
+        Of::Car(_) => matches!(column.quantity, Q::Acceleration | Q::PitchAcceleration),
+        _ => false,
+    }
+}
+
+impl Observer for Watch {
+    fn start(&mut self, begin: &Begin) -> Result<(), RunError> {
+        let judged = begin.columns.iter().enumerate().filter(|(_, column)| is_judged(column));
+        self.kept = judged.map(|(at, column)| Kept { at, column: column.clone(), values: Vec::new() }).collect();
+        Ok(())
+    }
+
+    fn step(&mut self, moment: &Moment) -> Result<ControlFlow<()>, RunError> {
+        self.time.push(moment.t);
+        for kept in &mut self.kept {
+            kept.values.push(moment.row[kept.at]);
+        }
+        Ok(ControlFlow::Continue(()))
+    }
+}
+
+impl Watch {
+    /// The histories; what a scenario knows of its train, its deck and its points is told to them. Of wheelsets without a
+    /// scenario the force of the first row is the static one.
+    pub fn histories(self, checked: Option<&Checked>, scene: &Scene) -> Histories {
+        let mut histories = Histories { time: self.time, bridge: scene.deck, ..Histories::default() };
+        for Kept { column, values, .. } in self.kept {
+            match &column.of {
+                Of::Point(name) if belongs_to_deck(name, checked) => {
+                    let full = column.instance.as_ref().map_or_else(|| name.clone(), |of| format!("{of}.{name}"));
+                    let point = of(
+                        &mut histories.points,
+                        |point| point.name == full,
+                        || PointHistory {
+                            x: checked.and_then(|checked| checked.bridge.points.iter().find(|p| p.name == *name)?.x),
+                            name: full.clone(),
+                            ..PointHistory::default()
+                        },
+                    );
+                    match column.quantity {
+                        Quantity::Displacement => point.displacement = values,
+                        Quantity::Acceleration => point.acceleration = values,
+                        _ => point.moment = values,
+                    }
+                }
+                Of::Wheel(number) => {
+                    let loads = checked.into_iter().flat_map(|checked| checked.train_track.cars.iter());
+                    let known = loads.flat_map(|car| [car.axle_load(); 4]).nth(number - 1);
+                    let axle = of(
+                        &mut histories.axles,
+                        |axle| axle.number == *number,
+                        || AxleHistory { number: *number, ..AxleHistory::default() },
+                    );
+                    if column.quantity == Quantity::ContactForce {
+                        axle.static_load = known.or_else(|| values.first().copied()).unwrap_or(0.0);
+                        axle.force = values;
+                    } else {
+                        axle.position = values;
+                    }
+                }
+                Of::Car(number) => {
+                    let base = checked.and_then(|checked| checked.train_track.cars.get(number - 1));
+                    let car = of(
+                        &mut histories.cars,
+                        |car| car.number == *number,
+                        || CarHistory {
+                            number: *number,
+                            half_base: base.map(|car| 0.5 * car.bogie_distance),
+                            ..CarHistory::default()
+                        },
+                    );
+                    if column.quantity == Quantity::Acceleration {
+                        car.acceleration = values;
+                    } else {
+                        car.pitch_acceleration = values;
+                    }
+                }
+                _ => {}
+            }
+        }
+        histories
+    }
+}
+
+/// Whether a point carries track: by its abscissa; a node of a model may be anywhere. Of a foreign bridge every point counts.
+fn belongs_to_deck(name: &str, checked: Option<&Checked>) -> bool {
+    let known = checked.and_then(|checked| checked.bridge.points.iter().find(|point| point.name == *name));
+    known.is_none_or(|point| point.node.is_none())
+}
+
+/// The member of a list that fits, or a new one.
+fn of<T>(list: &mut Vec<T>, fits: impl Fn(&T) -> bool, new: impl FnOnce() -> T) -> &mut T {
+    let at = list.iter().position(fits).unwrap_or_else(|| {
+        list.push(new());
+        list.len() - 1
+    });
+    &mut list[at]
+}
