@@ -51,6 +51,14 @@ pub enum Error {
         /// How many.
         count: usize,
     },
+    /// `ttb report --check`: limits are exceeded; the verdicts are on stdout.
+    #[error("{}: {count} {} exceeded", folder.display(), if *count == 1 { "criterion" } else { "criteria" })]
+    Exceeded {
+        /// The folder.
+        folder: PathBuf,
+        /// How many.
+        count: usize,
+    },
     /// Ctrl-C, or another signal.
     #[error("interrupted by {}; the results so far are kept", .0.name())]
     Interrupted(Signal),
@@ -65,6 +73,7 @@ impl Error {
             Self::NotConverged(_) | Self::BlownUp(_) => 3,
             Self::Fmu(_) | Self::NoReturn(_) => 4,
             Self::Io { .. } | Self::Pack(_) => 5,
+            Self::Exceeded { .. } => 6,
             Self::Interrupted(signal) => signal.code(),
         }
     }
@@ -78,6 +87,7 @@ impl Error {
             Self::Fmu(_) | Self::NoReturn(_) => "fmu-failed",
             Self::Io { .. } | Self::Pack(_) => "io-failed",
             Self::Findings { .. } => "findings",
+            Self::Exceeded { .. } => "exceeded",
             Self::Interrupted(_) => "interrupted",
         }
     }

@@ -6,7 +6,7 @@ use clap::Parser;
 use ttb::cli::{Cli, Command};
 use ttb::commands::{
     accuracy, build, check, check_scenario, compare, export_ssp, generate, help_files, host, inspect, inspect_bridge,
-    keeper, new, run, schema, view,
+    keeper, new, report, run, schema, view,
 };
 use ttb::error::Error;
 use ttb::signals::Stop;
@@ -36,6 +36,7 @@ fn execute(command: Command, stop: &Stop) -> Result<(), Error> {
     match command {
         Command::Run(arguments) => run::run(&arguments, stop),
         Command::New(arguments) => new::new(&arguments),
+        Command::Report(arguments) => report::report(&arguments),
         Command::Build(arguments) => build::build(&arguments, stop),
         Command::CheckScenario { scenario, set } => check_scenario::check(&scenario, &set),
         Command::Check(arguments) => check::check(&arguments),
@@ -46,7 +47,7 @@ fn execute(command: Command, stop: &Stop) -> Result<(), Error> {
         Command::ExportSsp(arguments) => export_ssp::export(&arguments),
         Command::Generate(arguments) => generate::generate(&arguments),
         Command::View(arguments) => view::view(&arguments, stop),
-        Command::Schema { bridge, summary } => schema::schema(bridge, summary),
+        Command::Schema { bridge, summary, verdicts } => schema::schema(bridge, summary, verdicts),
         Command::Completions { shell } => help_files::completions(shell),
         Command::Man { output } => help_files::man(output.as_deref()),
         Command::Host { preload } => host::host(&preload),

@@ -119,6 +119,9 @@ pub struct Verdicts {
 /// The present format of verdicts.json.
 pub const VERSION: u32 = 1;
 
+/// The JSON Schema of verdicts.json.
+pub const SCHEMA: &str = include_str!("../data/verdicts.schema.json");
+
 impl Verdicts {
     /// Criteria whose limit is exceeded.
     pub fn exceeded(&self) -> impl Iterator<Item = &Verdict> {

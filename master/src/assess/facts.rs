@@ -11,8 +11,8 @@ use ttb_assessment::Facts;
 use ttb_bridge::Prepared;
 use ttb_scenario::Checked;
 use ttb_scenario::deck::Deck;
-use ttb_scenario::spec::StructureSpec;
-use ttb_scenario::types::{Span, Support};
+use ttb_scenario::spec::{Span, StructureSpec};
+use ttb_scenario::types::Support;
 
 /// More degrees of freedom are not searched for frequencies in passing.
 const MANY: usize = 20_000;

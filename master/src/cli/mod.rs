@@ -8,6 +8,7 @@ mod export_ssp;
 mod generate;
 mod inspect;
 mod new;
+mod report;
 mod run;
 mod seconds;
 mod set;
@@ -25,6 +26,7 @@ pub use export_ssp::ExportSsp;
 pub use generate::{Generate, Generated};
 pub use inspect::Inspect;
 pub use new::{Begin, New};
+pub use report::Report;
 pub use run::{Isolate, Run};
 pub use set::Set;
 pub use view::View;
@@ -54,6 +56,7 @@ Exit codes:
     3  a step did not converge
     4  an FMU failed
     5  input or output failed
+    6  ttb report --check: a limit is exceeded
   130  interrupted by Ctrl-C; results so far are kept
   143  ended by SIGTERM, 129: by SIGHUP; the same";
 
@@ -75,6 +78,9 @@ pub enum Command {
     /// Begin: write a scenario that runs at once, with comments that say what to put in place of each number
     #[command(after_help = new::HELP)]
     New(New),
+    /// Judge the results of a run or a sweep by the limits of codes, and write the report
+    #[command(after_help = report::HELP)]
+    Report(Report),
     /// Only build TrainTrack.fmu and Bridge.fmu
     Build(Build),
     /// Write a scenario as a system structure (SSP 1.0): both FMUs, connections and coupling settings in one file
@@ -124,6 +130,9 @@ pub enum Command {
         /// Print the schema of summary.json, which a run writes, instead
         #[arg(long)]
         summary: bool,
+        /// Print the schema of verdicts.json, which a report writes, instead
+        #[arg(long, conflicts_with_all = ["bridge", "summary"])]
+        verdicts: bool,
     },
     /// Print the shell's completion script, to be sourced or put where the shell looks for it
     #[command(after_help = COMPLETIONS_HELP)]

@@ -15,6 +15,7 @@ pub mod keeper;
 pub mod new;
 mod output;
 mod progress;
+pub mod report;
 pub mod run;
 pub mod schema;
 pub mod view;

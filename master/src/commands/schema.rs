@@ -3,8 +3,12 @@
 use crate::error::Error;
 use crate::results::summary;
 
-/// The command: of bridge model files, of summaries, or of scenarios.
-pub fn schema(bridge: bool, summary: bool) -> Result<(), Error> {
+/// The command: of bridge model files, of summaries, of verdicts, or of scenarios.
+pub fn schema(bridge: bool, summary: bool, verdicts: bool) -> Result<(), Error> {
+    if verdicts {
+        say!("{}", ttb_assessment::verdict::SCHEMA.trim_end());
+        return Ok(());
+    }
     match (bridge, summary) {
         (true, _) => say!("{:#}", ttb_scenario::model_schema()),
         (_, true) => say!("{:#}", summary::schema().to_value()),

@@ -1,0 +1,150 @@
+//! From a folder to the values of a report.
+
+mod bridge;
+mod histories;
+mod trains;
+
+use std::time::{SystemTime, UNIX_EPOCH};
+
+use serde_json::Value;
+use ttb_assessment::{Status, Verdict, Verdicts};
+use ttb_model_description::Date;
+use ttb_report::{Change, Envelope, Input, render};
+
+use super::folder::Opened;
+use crate::error::Error;
+
+/// What the files of a folder hold.
+const FILES: [(&str, &str); 12] = [
+    ("runs.csv", "a run a row: train, speed, variant, seed, basis, step"),
+    ("peaks.csv", "a reduced value a row"),
+    ("envelope.csv", "extremes along the deck"),
+    ("verdicts.json", "the verdicts of this page"),
+    ("assessment.json", "what was taken for bridge and track"),
+    ("results.csv", "histories, SI units, 17 digits"),
+    ("results.h5", "histories and tables as HDF5"),
+    ("iterations.csv", "the iteration of every step"),
+    ("summary.json", "how the run went, every file read with its hash"),
+    ("scenario.resolved.json", "the scenario with all defaults"),
+    ("plan.json", "the plan of the sweep"),
+    ("coupled-check.json", "governing runs by the other way"),
+];
+
+/// The page.
+pub fn page(opened: &Opened, verdicts: &Verdicts) -> Result<String, Error> {
+    let text = |value: &Value| value.as_str().map(str::to_string);
+    let trains = trains::all(opened);
+    let (bridge, modal) = bridge::of(opened);
+    let governing = governing(verdicts);
+    let passages = histories::all(opened, governing, modal.as_ref());
+    let summary = opened.summary.as_ref();
+    let mut commands: Vec<String> = summary
+        .and_then(|summary| summary["command"].as_array())
+        .map(|words| words.iter().filter_map(Value::as_str).collect::<Vec<_>>().join(" "))
+        .into_iter()
+        .collect();
+    commands.push(format!("ttb report {}", opened.folder.display()));
+    let present = FILES.iter().filter(|(name, _)| opened.folder.join(name).is_file());
+    let title = if opened.assessment.title.is_empty() { "Assessment".into() } else { opened.assessment.title.clone() };
+    let input = Input {
+        title,
+        people: Vec::new(),
+        version: env!("CARGO_PKG_VERSION").into(),
+        date: date()?,
+        hash: summary
+            .and_then(|summary| text(&summary["scenario_sha256"]))
+            .or_else(|| opened.plan.as_ref().and_then(|plan| text(&plan["scenario_sha256"]))),
+        verdicts,
+        results: &opened.results,
+        bridge,
+        trains,
+        envelopes: envelopes(opened, governing)?,
+        passages,
+        changes: changes(opened, governing),
+        commands,
+        files: present.map(|(name, what)| [(*name).to_string(), (*what).to_string()]).collect(),
+        warnings: opened.warnings.clone(),
+    };
+    render(&input).map_err(|e| Error::Pack(e.to_string()))
+}
+
+/// The worst verdict with a limit, else the first with a run.
+fn governing(verdicts: &Verdicts) -> Option<&Verdict> {
+    let judged = || verdicts.verdicts.iter().filter(|v| v.status != Status::NotJudged && v.run_id.is_some());
+    let share = |verdict: &&Verdict| verdict.utilisation.unwrap_or(0.0);
+    judged()
+        .filter(|v| v.utilisation.is_some())
+        .max_by(|a, b| share(a).total_cmp(&share(b)))
+        .or_else(|| judged().next())
+}
+
+/// The day, or that of `SOURCE_DATE_EPOCH`.
+fn date() -> Result<String, Error> {
+    let asked = Date::asked_for().map_err(Error::Input)?;
+    let now = || SystemTime::now().duration_since(UNIX_EPOCH).ok().and_then(|now| Date::from_epoch(now.as_secs()));
+    let text = asked.or_else(now).map_or_else(String::new, Date::text);
+    Ok(text.split('T').next().unwrap_or_default().to_string())
+}
+
+/// Envelopes of the governing run.
+fn envelopes(opened: &Opened, governing: Option<&Verdict>) -> Result<Vec<Envelope>, Error> {
+    let path = opened.folder.join("envelope.csv");
+    let Some(run_id) = governing.and_then(|verdict| verdict.run_id.as_ref()).filter(|_| path.is_file()) else {
+        return Ok(Vec::new());
+    };
+    let mut found: Vec<Envelope> = Vec::new();
+    let wrong = |e: csv::Error| Error::Input(format!("{}: {e}", path.display()));
+    let mut reader = csv::Reader::from_path(&path).map_err(wrong)?;
+    for row in reader.records() {
+        let row = row.map_err(wrong)?;
+        let field = |at: usize| row.get(at).unwrap_or_default();
+        let numbers: Vec<f64> = (3..6).filter_map(|at| field(at).parse().ok()).collect();
+        let (true, &[x, min, max]) = (field(0) == run_id, numbers.as_slice()) else { continue };
+        if !found.last().is_some_and(|one| one.quantity == field(1) && one.filter == field(2)) {
+            let (x, min, max) = (Vec::new(), Vec::new(), Vec::new());
+            let (quantity, filter) = (field(1).to_string(), field(2).to_string());
+            found.push(Envelope { run_id: run_id.clone(), quantity, filter, x, min, max });
+        }
+        if let Some(one) = found.last_mut() {
+            one.x.push(x);
+            one.min.push(min);
+            one.max.push(max);
+        }
+    }
+    Ok(found)
+}
+
+/// The governing value behind the other filters of the same run, and by the other way.
+fn changes(opened: &Opened, governing: Option<&Verdict>) -> Vec<Change> {
+    let Some((verdict, before)) = governing.and_then(|verdict| Some((verdict, verdict.value?))) else {
+        return Vec::new();
+    };
+    let mut changes: Vec<Change> = Vec::new();
+    for (run, peak) in &opened.results.rows {
+        let same = peak.quantity == verdict.quantity
+            && peak.statistic.name() == verdict.statistic
+            && Some(&opened.results.runs[*run].run_id) == verdict.run_id.as_ref()
+            && peak.filter != verdict.filter;
+        if !same {
+            continue;
+        }
+        let what = format!("filter {} instead of {}", peak.filter, verdict.filter);
+        match changes.iter_mut().find(|change| change.what == what) {
+            Some(change) => change.after = change.after.max(peak.value),
+            None => changes.push(Change { what, before, after: peak.value, unit: verdict.unit.clone() }),
+        }
+    }
+    let path = opened.folder.join("coupled-check.json");
+    let read = std::fs::read_to_string(path).ok().and_then(|text| serde_json::from_str::<Value>(&text).ok());
+    for one in read.as_ref().and_then(Value::as_array).into_iter().flatten() {
+        let (Some(sweep), Some(coupled), Some(quantity)) =
+            (one["sweep"].as_f64(), one["coupled"].as_f64(), one["quantity"].as_str())
+        else {
+            continue;
+        };
+        let unit = if quantity == "deck.displacement" { "m" } else { "m/s2" };
+        let what = format!("{quantity}, raw, by the coupled way (run {})", one["run_id"].as_str().unwrap_or_default());
+        changes.push(Change { what, before: sweep, after: coupled, unit: unit.into() });
+    }
+    changes
+}

@@ -1,0 +1,41 @@
+//! Trains of axle loads of a plan, with their signatures.
+
+use serde_json::Value;
+use ttb_report::Train;
+use ttb_trains::{Axle, ForceTrain, Signature};
+
+use crate::assess::folder::Opened;
+
+/// Range of wavelengths, m, values in it, and the damping ratio of the signature.
+const RANGE: [f64; 2] = [4.5, 40.0];
+const VALUES: usize = 200;
+const DAMPING: f64 = 0.01;
+
+/// Trains of the plan that are axle loads.
+pub fn all(opened: &Opened) -> Vec<Train> {
+    let plan = opened.plan.as_ref().and_then(|plan| plan["trains"].as_array());
+    plan.into_iter().flatten().filter_map(force_train).map(|train| shown(&train)).collect()
+}
+
+/// A train of a plan, if it is one of axle loads.
+pub(super) fn force_train(entry: &Value) -> Option<ForceTrain> {
+    let axle = |pair: &Value| Some(Axle { x: pair[0].as_f64()?, load: pair[1].as_f64()? });
+    let axles: Vec<Axle> = entry["load"]["axles"].as_array()?.iter().filter_map(axle).collect();
+    let name = entry["name"].as_str()?.to_string();
+    let known = ttb_trains::find(&name).ok().and_then(|found| found.into_iter().next());
+    let (source, verified) = known.map_or_else(|| ("the plan".into(), "user".into()), |one| (one.source, one.verified));
+    let (title, max_speed, buffers, coach) = (name.clone(), None, None, None);
+    (!axles.is_empty()).then_some(ForceTrain { name, title, max_speed, axles, buffers, coach, source, verified })
+}
+
+fn shown(train: &ForceTrain) -> Train {
+    let signature = Signature::new(train, DAMPING);
+    let at = |i: usize| RANGE[0] + (RANGE[1] - RANGE[0]) * i as f64 / (VALUES - 1) as f64;
+    Train {
+        name: train.name.clone(),
+        axles: train.axles.iter().map(|axle| [axle.x, axle.load]).collect(),
+        signature: (0..VALUES).map(|i| [at(i), signature.amplitude(at(i))]).collect(),
+        spacings: signature.resonances(RANGE).iter().map(|one| one.length).collect(),
+        source: format!("{} ({})", train.source, train.verified),
+    }
+}
