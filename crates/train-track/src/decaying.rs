@@ -51,8 +51,7 @@ impl Decaying {
             let below = self.below(j);
             let column = &mut self.columns[j * width..(j + 1) * width];
             let pivot = column[0].sqrt();
-            // NaN, too, is no pivot.
-            if !(column[0] > 0.0) {
+            if column[0].is_nan() || column[0] <= 0.0 {
                 return None;
             }
             column[0] = pivot;

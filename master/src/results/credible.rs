@@ -83,11 +83,10 @@ impl Doubts {
 }
 
 fn is_force(peak: &Peak) -> bool {
-    match (&peak.column.of, &peak.column.quantity) {
-        (Of::Wheel(_), Quantity::ContactForce) => true,
-        (Of::Support(_), Quantity::Force | Quantity::MeanForce) => true,
-        _ => false,
-    }
+    matches!(
+        (&peak.column.of, &peak.column.quantity),
+        (Of::Wheel(_), Quantity::ContactForce) | (Of::Support(_), Quantity::Force | Quantity::MeanForce)
+    )
 }
 
 fn is_displacement(peak: &Peak) -> bool {
