@@ -23,6 +23,8 @@ pub struct Assembled {
     pub points: Vec<Monitor>,
     /// Total mass, kg.
     pub mass: f64,
+    /// Significant digits with which a file gives K; none if K was computed here.
+    pub digits: Option<u32>,
 }
 
 /// Describes a degree of freedom by its number.

@@ -31,6 +31,7 @@ pub fn from(imported: Imported, stations: &[f64]) -> Result<Assembled, ModelErro
     // As much as moves in a rigid translation; 0 when directions are unknown.
     let mass =
         imported.inspect().motions.iter().filter(|m| m.direction < 3).map(|motion| motion.inertia).fold(0.0, f64::max);
+    let digits = imported.files.first().map(|file| file.facts.digits);
     let Imported { k, m, c, dofs, points, .. } = imported;
     let mut equations = Assembly::new(k.n);
     for j in 0..k.n {
@@ -46,7 +47,7 @@ pub fn from(imported: Imported, stations: &[f64]) -> Result<Assembled, ModelErro
         .unzip();
     let node_of = dofs.as_ref().map(|dofs| dofs.node_of.clone()).unwrap_or_default();
     let nodes = dofs.as_ref().and_then(|dofs| dofs.coordinates.clone()).unwrap_or_default();
-    Ok(Assembled { equations, nodes, node_of, names: names(dofs), supports, monitors, points, mass })
+    Ok(Assembled { equations, nodes, node_of, names: names(dofs), supports, monitors, points, mass, digits })
 }
 
 fn names(dofs: Option<Dofs>) -> Names {

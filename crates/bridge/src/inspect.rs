@@ -12,6 +12,7 @@ use ttb_sparse::modes::lowest;
 use ttb_sparse::{Factor, FactorError, Layout};
 
 use crate::assembled::{Assembled, Names};
+use crate::rounding::Digits;
 use crate::space::{self, SelfCheck, Statics};
 use crate::{imported, plane, rounding};
 
@@ -28,8 +29,10 @@ pub struct Report {
     pub model: Option<SelfCheck>,
     /// What imported files hold.
     pub files: Option<Inspection>,
-    /// Total mass, kg.
-    pub mass: f64,
+    /// Total mass, kg; none where imported matrices do not say which rows are translations.
+    pub mass: Option<f64>,
+    /// What the digits of a file leave of K.
+    pub digits: Option<Digits>,
     /// What rounding leaves of static displacements.
     pub condition: Option<Condition>,
     /// Lowest natural frequencies, Hz; or why there are none.
@@ -54,8 +57,10 @@ pub fn inspect(spec: &BridgeSpec) -> Result<Report, ModelError> {
         StructureSpec::FiniteElements(model) => of_model(model, &spec.supports),
         StructureSpec::Matrices { files, folder, .. } => {
             let imported = files.read(folder).map_err(|problems| ModelError(problems.to_string()))?;
-            let inspection = imported.inspect();
-            Ok(Equations::new(imported::from(imported, &spec.supports)?)?.report(None, Some(inspection)))
+            let (inspection, known) = (imported.inspect(), imported.dofs.is_some());
+            let mut report = Equations::new(imported::from(imported, &spec.supports)?)?.report(None, Some(inspection));
+            report.mass = report.mass.filter(|_| known);
+            Ok(report)
         }
         StructureSpec::Beams { .. } | StructureSpec::Frame(_) => {
             Ok(Equations::new(plane::assemble(spec)?)?.report(None, None))
@@ -80,9 +85,10 @@ pub fn remarks(spec: &BridgeSpec) -> Result<Vec<String>, ModelError> {
              rounding shows, is found when it is built or inspected"
         )]);
     }
-    let Equations { factor, names, condition, .. } = Equations::new(assembled)?;
+    let Equations { factor, names, condition, digits, .. } = Equations::new(assembled)?;
     factor.map_err(|error| ModelError(format!("bridge: {}", loose(error, &names))))?;
-    Ok(condition.map(|condition| rounding::remark(&condition)).transpose()?.flatten().into_iter().collect())
+    let rounded = condition.map(|condition| rounding::remark(&condition)).transpose()?.flatten();
+    Ok(rounded.into_iter().chain(digits.as_ref().and_then(Digits::remark)).collect())
 }
 
 /// The assembled bridge; none where a stored one stands for it.
@@ -111,7 +117,8 @@ pub fn of_model(model: &Model, supports: &[f64]) -> Result<Report, ModelError> {
                 entries: 0,
                 model: Some(check),
                 files: None,
-                mass,
+                mass: Some(mass),
+                digits: None,
                 condition: None,
                 frequencies: Err(error.0),
             });
@@ -135,23 +142,26 @@ struct Equations {
     factor: Result<Factor, FactorError>,
     names: Names,
     mass: f64,
+    digits: Option<Digits>,
     condition: Option<Condition>,
 }
 
 impl Equations {
     fn new(assembled: Assembled) -> Result<Self, ModelError> {
-        let Assembled { equations, nodes, node_of, names, supports, mass, .. } = assembled;
+        let Assembled { equations, nodes, node_of, names, supports, mass, digits, .. } = assembled;
         let layout = Layout { node_of, place: nodes, ..Layout::default() };
         let pencil = equations.finish_with(&layout).map_err(|e| ModelError(format!("bridge: {e}")))?;
         let factor = pencil.factor(1.0, 0.0, 0.0);
         let condition = factor.as_ref().ok().and_then(|factor| rounding::condition(&pencil, factor, &supports));
-        Ok(Self { pencil, factor, names, mass, condition })
+        let digits = factor.as_ref().ok().and_then(|factor| rounding::of_digits(&pencil, factor, &supports, digits));
+        Ok(Self { pencil, factor, names, mass, digits, condition })
     }
 
     fn report(self, model: Option<SelfCheck>, files: Option<Inspection>) -> Report {
-        let Self { pencil, factor, names, mass, condition } = self;
+        let Self { pencil, factor, names, mass, digits, condition } = self;
         let (ndof, entries) = (pencil.ndof(), pencil.entries());
-        Report { ndof, entries, model, files, mass, condition, frequencies: frequencies(&pencil, factor, &names) }
+        let (mass, frequencies) = (Some(mass), frequencies(&pencil, factor, &names));
+        Report { ndof, entries, model, files, mass, digits, condition, frequencies }
     }
 }
 
@@ -172,7 +182,10 @@ impl fmt::Display for Report {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         writeln!(f, "degrees of freedom   {}", self.ndof)?;
         writeln!(f, "entries, lower half  {}", self.entries)?;
-        writeln!(f, "mass                 {:.3} t", self.mass * 1e-3)?;
+        match self.mass {
+            Some(mass) => writeln!(f, "mass                 {:.3} t", mass * 1e-3)?,
+            None => writeln!(f, "mass                 unknown: no file `dofs` says which rows are translations")?,
+        }
         if let Some(check) = &self.model {
             writeln!(f, "{check}")?;
         }
@@ -185,6 +198,9 @@ impl fmt::Display for Report {
                 f,
                 "condition of K       {number:.1e}: rounding moves displacements by about {error:.0e} of themselves"
             )?;
+        }
+        if let Some(remark) = self.digits.as_ref().and_then(Digits::remark) {
+            writeln!(f, "digits of K          {remark}")?;
         }
         match &self.frequencies {
             Ok(hertz) => {
@@ -207,8 +223,17 @@ fn facts(files: &Inspection, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         };
         writeln!(f, "mass {name}         {:.6e} {unit}, held in {} rows", motion.inertia, motion.held)?;
     }
-    for (x, sum) in &files.odd_supports {
-        writeln!(f, "support at {x} m: its weights add up to {sum}, unlike the others'")?;
+    if !files.held.is_empty() {
+        let (count, first) = (files.held.len(), files.held[0] + 1);
+        writeln!(f, "rows that are held   {count}, without any entry, the first of them {first}")?;
+    }
+    if let [first, ..] = files.lone[..] {
+        let count = files.lone.len();
+        writeln!(
+            f,
+            "rows for themselves  {count}, with a diagonal only, the first of them {}: springs to the ground?",
+            first + 1
+        )?;
     }
     Ok(())
 }

@@ -31,7 +31,7 @@ pub fn assemble(spec: &BridgeSpec) -> Result<Assembled, ModelError> {
     let nodes = mesh.nodes.iter().map(|node| [node.x, 0.0, node.z]).collect();
     let mass = mesh.mass();
     let names = Box::new(move |dof| mesh.describe(dof));
-    Ok(Assembled { equations, nodes, node_of, names, supports, monitors, points, mass })
+    Ok(Assembled { equations, nodes, node_of, names, supports, monitors, points, mass, digits: None })
 }
 
 fn support_rows(mesh: &Mesh, deck: &Deck, stations: &[f64]) -> Result<Vec<Row>, ModelError> {

@@ -63,12 +63,15 @@ impl Structure {
     }
 
     fn from_assembled(assembled: Assembled, spec: &BridgeSpec) -> Result<Self, ModelError> {
-        let Assembled { equations, nodes, node_of, names, supports, monitors, mut points, mass } = assembled;
+        let Assembled { equations, nodes, node_of, names, supports, monitors, mut points, mass, digits } = assembled;
         let ndof = equations.ndof();
         let layout = Layout { node_of, place: nodes, last: eliminated_last(&supports, ndof), order: Vec::new() };
         let pencil = Arc::new(equations.finish_with(&layout).map_err(in_bridge)?);
         let statics = Arc::new(pencil.factor(1.0, 0.0, 0.0).map_err(|e| explain(&names, e))?);
         let mut remarks: Vec<String> = rounding::check(&pencil, &statics, &supports)?.into_iter().collect();
+        remarks.extend(
+            rounding::of_digits(&pencil, &statics, &supports, digits).as_ref().and_then(rounding::Digits::remark),
+        );
         let needed = modes_needed(&spec.damping, spec.modes);
         let modes =
             if needed == 0 { Modes::default() } else { lowest(&pencil, &statics, needed).map_err(in_bridge)? };

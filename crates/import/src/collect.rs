@@ -181,7 +181,12 @@ impl Judge {
         match self.unlike.filter(|_| full) {
             Some((difference, i, j, lower, upper)) if difference > ROUNDING => {
                 let (i, j) = (i + 1, j + 1);
-                let found = format!("a({i}, {j}) = {lower:e}, a({j}, {i}) = {upper:e}");
+                let one = if self.both == 0 {
+                    "; only one triangle is given: the header must say symmetric (RSA)"
+                } else {
+                    ""
+                };
+                let found = format!("a({i}, {j}) = {lower:e}, a({j}, {i}) = {upper:e}{one}");
                 Err(report.fatal(None, "the matrix must be symmetric", found))
             }
             worst => Ok(worst.map_or(0.0, |worst| worst.0)),

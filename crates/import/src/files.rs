@@ -12,6 +12,7 @@ use crate::matrix::SymmetricMatrix;
 use crate::problem::{Problem, Problems, Report, Stop};
 use crate::read::{Facts, Matrix, read_matrix};
 use crate::rows::{Row, Target, points, supports};
+use crate::weights::weights;
 
 /// Matrices from another program and what belongs to them. Paths are relative to the file that names them.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -69,6 +70,9 @@ pub struct Imported {
     pub points: Vec<(String, Row)>,
     /// How K, M and C were read.
     pub files: Vec<FileFacts>,
+    /// Rows without any entry in K, M and C, from 0: motions that are held. K has a diagonal there nevertheless, so that
+    /// it is regular, and no support or point moves with them.
+    pub held: Vec<u32>,
 }
 
 impl Files {
@@ -97,22 +101,31 @@ impl Files {
             part(&open(name), &mut problems, |input, report| dofs::read(input, nodes.as_ref(), report))
         });
         let labels = dofs.as_ref().map(|dofs| dofs.dofs.as_slice());
-        let mut matrix = |name: &str, size, labels: Option<&[_]>| {
-            read_matrix(&open(name), self.format, size, labels).map_err(|Problems(p)| problems.extend(p)).ok()
+        let mut matrix = |name: &str, letter, size, labels: Option<&[_]>| {
+            read_matrix(&open(name).of(letter), self.format, size, labels)
+                .map_err(|Problems(p)| problems.extend(p))
+                .ok()
         };
-        let k = matrix(&self.stiffness, None, labels);
+        let mut k = matrix(&self.stiffness, 'K', None, labels);
         let own_labels = k.as_ref().and_then(|k| k.labels.clone());
         let labels = labels.or(own_labels.as_deref());
         let size = k.as_ref().map(|k| k.matrix.n as u32);
-        let m = matrix(&self.mass, size, labels);
-        let c = self.damping.as_deref().map(|name| matrix(name, size, labels));
+        let m = matrix(&self.mass, 'M', size, labels);
+        let c = self.damping.as_deref().map(|name| matrix(name, 'B', size, labels));
 
         let dofs = dofs.or_else(|| own_labels.map(|labels| Dofs::new(labels, nodes.as_ref())));
+        let held = hold(k.as_mut(), [m.as_ref(), c.iter().flatten().next()]);
         self.agree(k.as_ref(), m.as_ref(), dofs.as_ref(), &open, &mut problems);
 
         let numbering = dofs.as_ref().map(Dofs::numbering);
-        let target = Target { n: size.map(|n| n as usize), numbering: numbering.as_ref() };
-        let supports = part(&open(&self.supports), &mut problems, |i, r| supports(i, &target, r));
+        // What is missing for another file's sake is told of that file alone.
+        let hidden = numbering.is_none() && (self.dofs.is_some() || k.is_none());
+        let target = Target { n: size.map(|n| n as usize), numbering: numbering.as_ref(), hidden };
+        let supports = part(&open(&self.supports), &mut problems, |i, r| {
+            let found = supports(i, &target, r)?;
+            weights(&found, dofs.as_ref(), r);
+            Ok(found)
+        });
         let points = match self.points.as_deref() {
             Some(name) => part(&open(name), &mut problems, |i, r| points(i, &target, r)),
             None => Some(Vec::new()),
@@ -126,7 +139,9 @@ impl Files {
         let mut files = vec![fact(&self.stiffness, &k), fact(&self.mass, &m)];
         files.extend(self.damping.as_deref().zip(c.as_ref()).map(|(name, c)| fact(name, c)));
         let c = c.map(|c| c.matrix);
-        Ok(Imported { k: k.matrix, m: m.matrix, c, dofs, supports, points, files })
+        let supports = still(supports, &held);
+        let points = still(points, &held);
+        Ok(Imported { k: k.matrix, m: m.matrix, c, dofs, supports, points, files, held })
     }
 
     /// What no file can tell alone: sizes that fit, a positive diagonal of K, none negative of M.
@@ -169,6 +184,27 @@ impl Files {
 
     /// Bad rows shown one by one.
     const SHOWN: usize = 10;
+}
+
+/// Rows that nothing names in any matrix. K gets its largest diagonal there.
+fn hold(k: Option<&mut Matrix>, others: [Option<&Matrix>; 2]) -> Vec<u32> {
+    let Some(k) = k else { return Vec::new() };
+    let mut empty = k.matrix.empty_rows();
+    for other in others.into_iter().flatten() {
+        let theirs = other.matrix.empty_rows();
+        empty.retain(|row| theirs.binary_search(row).is_ok());
+    }
+    let most = k.matrix.diagonal().into_iter().fold(0.0, f64::max);
+    if most > 0.0 && !empty.is_empty() {
+        k.matrix.hold(&empty, most);
+    }
+    empty
+}
+
+/// Nothing moves with a row that is held.
+fn still<T>(rows: Vec<(T, Row)>, held: &[u32]) -> Vec<(T, Row)> {
+    let of = |(row, weight): (u32, f64)| (row, if held.binary_search(&row).is_ok() { 0.0 } else { weight });
+    rows.into_iter().map(|(name, row)| (name, row.into_iter().map(of).collect())).collect()
 }
 
 /// Reads one file and collects what is wrong with it.

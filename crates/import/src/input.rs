@@ -10,6 +10,7 @@ use std::sync::Arc;
 pub struct Input {
     name: String,
     source: Source,
+    wants: Option<char>,
 }
 
 #[derive(Clone, Debug)]
@@ -21,12 +22,22 @@ enum Source {
 impl Input {
     /// A file on disk.
     pub fn path(path: &Path) -> Self {
-        Self { name: path.display().to_string(), source: Source::Path(path.to_owned()) }
+        Self { name: path.display().to_string(), source: Source::Path(path.to_owned()), wants: None }
     }
 
     /// Bytes in memory, named for messages; the name's extension counts as a file's does.
     pub fn bytes(name: &str, bytes: impl Into<Arc<[u8]>>) -> Self {
-        Self { name: name.to_owned(), source: Source::Bytes(bytes.into()) }
+        Self { name: name.to_owned(), source: Source::Bytes(bytes.into()), wants: None }
+    }
+
+    /// Where a file holds several matrices: the one whose name begins with this letter.
+    #[must_use]
+    pub fn of(self, letter: char) -> Self {
+        Self { wants: Some(letter), ..self }
+    }
+
+    pub(crate) fn wants(&self) -> Option<char> {
+        self.wants
     }
 
     /// Name for messages.

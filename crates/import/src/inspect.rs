@@ -9,11 +9,10 @@ use crate::dof::INTERNAL;
 use crate::dofs::Dofs;
 use crate::files::{FileFacts, Imported};
 use crate::matrix::SymmetricMatrix;
+use crate::rows::NEAR;
 
 /// |K r| below this part of |K| |r| is rounding.
 const ROUNDING: f64 = 1e-7;
-/// Stations closer than this are the same, m.
-const NEAR: f64 = 1e-6;
 
 /// A rigid motion of the whole model.
 #[derive(Clone, Debug, PartialEq)]
@@ -47,9 +46,8 @@ pub struct Inspection {
     pub lone: Vec<usize>,
     /// Rigid motions that move anything; none if directions are unknown, translations only if coordinates are.
     pub motions: Vec<Motion>,
-    /// Sum of the weights on translations (all rows if directions are unknown) of every support that is not like the
-    /// others': x, sum.
-    pub odd_supports: Vec<(f64, f64)>,
+    /// Rows without any entry, from 0: held.
+    pub held: Vec<u32>,
 }
 
 impl Imported {
@@ -72,10 +70,10 @@ impl Imported {
             files: self.files.clone(),
             stiffness: range(&k),
             masses: range(&m),
-            massless: (0..self.m.n).filter(|&i| !used[i]).collect(),
-            lone: (0..self.k.n).filter(|&i| !coupled[i]).collect(),
+            massless: (0..self.m.n).filter(|&i| !used[i] && self.held.binary_search(&(i as u32)).is_err()).collect(),
+            lone: (0..self.k.n).filter(|&i| !coupled[i] && self.held.binary_search(&(i as u32)).is_err()).collect(),
             motions: self.dofs.as_ref().map(|dofs| self.motions(dofs)).unwrap_or_default(),
-            odd_supports: self.odd_supports(),
+            held: self.held.clone(),
         }
     }
 
@@ -110,18 +108,6 @@ impl Imported {
             Some(Motion { direction, inertia, held, first_held })
         };
         (0..directions).filter_map(motion).collect()
-    }
-
-    fn odd_supports(&self) -> Vec<(f64, f64)> {
-        let moves = |row: u32| {
-            let dof = self.dofs.as_ref().and_then(|dofs| dofs.dofs.get(row as usize));
-            dof.is_none_or(|dof| dof.freedom < 3)
-        };
-        let sum = |row: &[(u32, f64)]| row.iter().filter(|(row, _)| moves(*row)).map(|(_, w)| w).sum::<f64>();
-        let sums: Vec<(f64, f64)> = self.supports.iter().map(|(x, row)| (*x, sum(row))).collect();
-        let down = sums.iter().filter(|(_, sum)| *sum >= 0.0).count();
-        let usual = if 2 * down >= sums.len() { 1.0 } else { -1.0 };
-        sums.into_iter().filter(|(_, sum)| (sum - usual).abs() > NEAR).collect()
     }
 }
 

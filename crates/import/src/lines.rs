@@ -71,6 +71,12 @@ impl Lines {
         if let [head @ .., b'\r'] = text {
             text = head;
         }
+        if self.number == 1 {
+            if text.starts_with(&[0xff, 0xfe]) || text.starts_with(&[0xfe, 0xff]) {
+                return Err(report.fatal(Some(1), "a text file must be UTF-8 or ASCII", "UTF-16; save it as UTF-8"));
+            }
+            text = text.strip_prefix("\u{feff}".as_bytes()).unwrap_or(text);
+        }
         Ok(Some(Line { number: self.number, text }))
     }
 

@@ -34,6 +34,33 @@ impl SymmetricMatrix {
         (0..self.n).map(|j| first(j).map_or(0.0, |(_, value)| value)).collect()
     }
 
+    /// Rows without an entry other than 0, rising.
+    pub(crate) fn empty_rows(&self) -> Vec<u32> {
+        let mut used = vec![false; self.n];
+        for j in 0..self.n {
+            for (i, _) in self.column(j).filter(|(_, value)| *value != 0.0) {
+                (used[i], used[j]) = (true, true);
+            }
+        }
+        (0..self.n as u32).filter(|&row| !used[row as usize]).collect()
+    }
+
+    /// Gives empty rows a diagonal.
+    pub(crate) fn hold(&mut self, empty: &[u32], value: f64) {
+        let old = std::mem::replace(self, Self { n: self.n, starts: vec![0], rows: Vec::new(), values: Vec::new() });
+        for j in 0..old.n {
+            if empty.binary_search(&(j as u32)).is_ok() {
+                self.rows.push(j as u32);
+                self.values.push(value);
+            } else {
+                let column = old.starts[j]..old.starts[j + 1];
+                self.rows.extend_from_slice(&old.rows[column.clone()]);
+                self.values.extend_from_slice(&old.values[column]);
+            }
+            self.starts.push(self.rows.len());
+        }
+    }
+
     /// The product A x.
     pub fn product(&self, x: &[f64]) -> Vec<f64> {
         self.fold(x, |a| a)

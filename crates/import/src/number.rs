@@ -2,14 +2,14 @@
 
 use std::borrow::Cow;
 
-/// Fields of a line, apart by blanks, tabs or commas.
+/// Fields of a line, apart by blanks, tabs, commas or semicolons.
 pub(crate) struct Fields<'a> {
     rest: &'a [u8],
 }
 
 #[inline]
 fn separates(byte: u8) -> bool {
-    matches!(byte, b' ' | b'\t' | b',')
+    matches!(byte, b' ' | b'\t' | b',' | b';')
 }
 
 impl<'a> Fields<'a> {
@@ -56,6 +56,19 @@ impl<'a> Fields<'a> {
         (digits > 0 && ends).then_some(if digits > FIT { u64::MAX } else { number })
     }
 
+    /// As [`Fields::whole`]; a whole number may also be written as 1.0000e+00, as Matlab's `save -ascii` does.
+    #[inline]
+    pub fn position(&mut self) -> Option<u64> {
+        /// Larger ones are no rows, and not all of them are doubles.
+        const LARGEST: f64 = 1e15;
+        let before = self.rest;
+        self.whole().or_else(|| {
+            self.rest = before;
+            let number = real(self.next()).filter(|x| x.fract() == 0.0 && (0.0..LARGEST).contains(x))?;
+            Some(number as u64)
+        })
+    }
+
     /// Passes over a minus; was there one?
     #[inline]
     pub fn minus(&mut self) -> bool {
@@ -99,6 +112,25 @@ pub(crate) fn real(text: &[u8]) -> Option<f64> {
     number.filter(|number| number.is_finite())
 }
 
+/// Significant digits of a number as it is written: from the first to the last digit that is not 0.
+pub(crate) fn significant(text: &[u8]) -> u32 {
+    let (mut digits, mut zeros) = (0, 0);
+    for byte in text {
+        match byte {
+            b'0' if digits == 0 => {}
+            b'0' => zeros += 1,
+            b'1'..=b'9' => {
+                digits += zeros + 1;
+                zeros = 0;
+            }
+            b'.' => {}
+            b'+' | b'-' if digits == 0 && zeros == 0 => {}
+            _ => break,
+        }
+    }
+    digits
+}
+
 /// Fortran's exponents with the letter e.
 fn fortran(text: &[u8]) -> Option<Cow<'_, [u8]>> {
     const LONGEST: usize = 64;
@@ -136,6 +168,22 @@ mod tests {
         ];
         for (text, number) in cases {
             assert_eq!(real(text.as_bytes()), Some(number), "{text}");
+        }
+    }
+
+    #[test]
+    fn significant_digits_are_those_between_zeros() {
+        for (text, digits) in [
+            ("0", 0),
+            ("0.000", 0),
+            ("100", 1),
+            ("-0.0012500e+05", 3),
+            ("2.705649230769231E12", 16),
+            ("2.705649E+12", 7),
+            ("1.5-103", 2),
+            ("+1.50D+03", 2),
+        ] {
+            assert_eq!(significant(text.as_bytes()), digits, "{text}");
         }
     }
 

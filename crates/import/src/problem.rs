@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+use crate::number::significant;
+
 /// One broken rule.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Problem {
@@ -43,6 +45,8 @@ pub(crate) struct Report {
     file: String,
     /// The rules that are broken, in the order they were met.
     pub problems: Vec<Problem>,
+    /// Most significant digits of a value so far.
+    pub digits: u32,
 }
 
 impl Report {
@@ -50,7 +54,7 @@ impl Report {
     const MOST: usize = 20;
 
     pub fn new(file: &str) -> Self {
-        Self { file: file.to_owned(), problems: Vec::new() }
+        Self { file: file.to_owned(), problems: Vec::new(), digits: 0 }
     }
 
     /// Notes a problem; [`Stop`] once there are enough of them.
@@ -72,6 +76,21 @@ impl Report {
     pub fn fatal(&mut self, line: Option<u64>, rule: impl Into<String>, value: impl fmt::Display) -> Stop {
         self.push(line, rule.into(), value.to_string());
         Stop
+    }
+
+    /// The file, as the user named it.
+    pub fn file(&self) -> &str {
+        &self.file
+    }
+
+    /// Notes how many digits a value is written with.
+    #[inline]
+    pub fn written(&mut self, value: &[u8]) {
+        /// So many hold a double well enough.
+        const ALL: u32 = 16;
+        if self.digits < ALL {
+            self.digits = self.digits.max(significant(value));
+        }
     }
 
     fn push(&mut self, line: Option<u64>, rule: String, value: String) {

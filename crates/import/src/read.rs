@@ -22,6 +22,8 @@ pub struct Facts {
     pub entries: u64,
     /// Largest |a_ij − a_ji| relative to √(a_ii a_jj); 0 where one triangle was given.
     pub asymmetry: f64,
+    /// Significant digits of the value that has most of them, at most 17: with how many the file was written.
+    pub digits: u32,
 }
 
 /// A matrix and what is known of its file.
@@ -66,7 +68,7 @@ fn read(
     let format = format.map_or_else(|| Format::detect(input, report), Ok)?;
     let own_labels = if labels.is_none() { format.labels(input, report)? } else { None };
     let numbering = match (format, labels.or(own_labels.as_deref())) {
-        (Format::Labels, Some(labels)) => Some(Numbering::new(labels)),
+        (Format::Labels | Format::Dmig, Some(labels)) => Some(Numbering::new(labels)),
         _ => None,
     };
     let most = size.map_or((bytes / SHORTEST).min(MOST_ROWS), u64::from);
@@ -98,5 +100,5 @@ fn read(
         return Err(Stop);
     }
     let (matrix, asymmetry) = filler.finish(heading.symmetry, report)?;
-    Ok(Matrix { matrix, labels: own_labels, facts: Facts { format, bytes, entries, asymmetry } })
+    Ok(Matrix { matrix, labels: own_labels, facts: Facts { format, bytes, entries, asymmetry, digits: report.digits } })
 }

@@ -1,51 +1,82 @@
-//! Tables: CSV files with a header line.
+//! Tables: CSV files with a header line, in one dialect for all of them.
+//!
+//! | | |
+//! |---|---|
+//! | fields | apart by `;`, a tab, `,` or blanks: by the first of these that the header has; or by what `sep=` says |
+//! | quotes | as in RFC 4180: `"a, b"`, `""` for a quote inside |
+//! | header | the first line that is no remark; capitals do not count, nor does a unit `[m]` or `(m)` |
+//! | numbers | `1.5`, `1.5e3`, `1.5D+03`; `1,5` where commas do not separate, or in quotes; never both in a file |
+//! | else | a mark of UTF-8 at the beginning, ends of lines of all kinds, empty lines, `#` before a remark |
+
+mod dialect;
+
+use std::io::{Cursor, Read};
 
 use crate::input::Input;
-use crate::lines::Lines;
 use crate::number::{real, whole};
 use crate::problem::{Report, Stop, excerpt};
 
+use dialect::Dialect;
+
+/// Most bytes of a table.
+const MOST: u64 = 1 << 28;
+
 /// A table while it is read.
 pub(crate) struct Table {
-    lines: Lines,
+    records: csv::ByteRecordsIntoIter<Box<dyn Read>>,
+    dialect: Dialect,
     /// Names of the columns, lower case.
-    header: Vec<String>,
+    pub header: Vec<String>,
     line: u64,
     fields: Vec<String>,
+    /// The sign before decimals that was seen: a point or a comma.
+    decimal: Option<(u8, u64)>,
 }
 
 /// Position of a column.
 #[derive(Clone, Copy)]
 pub(crate) struct Column(usize);
 
-/// Fields of a line, apart by commas, semicolons or tabs; a field may stand in quotes.
-fn split(text: &[u8]) -> Vec<String> {
-    let mut fields = vec![Vec::new()];
-    let mut quoted = false;
-    for &byte in text {
-        match byte {
-            b'"' => quoted = !quoted,
-            b',' | b';' | b'\t' if !quoted => fields.push(Vec::new()),
-            _ => fields.last_mut().into_iter().for_each(|field| field.push(byte)),
-        }
-    }
-    fields.iter().map(|field| String::from_utf8_lossy(field).trim().to_owned()).collect()
-}
-
 impl Table {
-    /// Opens a table and reads its header; columns other than `allowed` are refused.
-    pub fn open(input: &Input, allowed: &[&str], report: &mut Report) -> Result<Self, Stop> {
-        let mut lines = Lines::open(input, report)?;
-        let first = lines.expect("a header line", report)?;
-        let text = first.text.strip_prefix("\u{feff}".as_bytes()).unwrap_or(first.text);
-        let header: Vec<String> = split(text).iter().map(|name| name.to_lowercase()).collect();
+    /// Opens a table and reads its header; columns other than `allowed`, if any are named, are refused.
+    pub fn open(input: &Input, allowed: Option<&[&str]>, report: &mut Report) -> Result<Self, Stop> {
+        let unreadable = |report: &mut Report, e: std::io::Error| report.fatal(None, "the file cannot be read", e);
+        let length = input.length().map_err(|e| unreadable(report, e))?;
+        if length > MOST {
+            return Err(report.fatal(None, format!("a table must have at most {MOST} bytes"), length));
+        }
+        let mut bytes = Vec::new();
+        input.open().and_then(|file| file.take(MOST).read_to_end(&mut bytes)).map_err(|e| unreadable(report, e))?;
+        let dialect = Dialect::of(&bytes, report)?;
+        let reader = csv::ReaderBuilder::new()
+            .has_headers(false)
+            .flexible(true)
+            .delimiter(dialect.separator)
+            .from_reader(Box::new(Cursor::new(bytes.split_off(dialect.skip))) as Box<dyn Read>);
+        let mut table = Self {
+            records: reader.into_byte_records(),
+            dialect,
+            header: Vec::new(),
+            line: 0,
+            fields: Vec::new(),
+            decimal: None,
+        };
+        if !table.record(report)? {
+            return Err(report.fatal(Some(1), "a header line must follow", "the file ends here"));
+        }
+        let header: Vec<String> = table.fields.iter().map(|name| dialect::column_name(name)).collect();
         for (i, name) in header.iter().enumerate() {
-            let rule = format!("columns must be among {}, each at most once", allowed.join(", "));
-            if !allowed.contains(&name.as_str()) || header[..i].contains(name) {
-                return Err(report.fatal(Some(1), rule, excerpt(name.as_bytes())));
+            let empty = allowed.is_none() && name.is_empty();
+            let unknown = allowed.is_some_and(|allowed| !allowed.contains(&name.as_str()));
+            if unknown || header[..i].contains(name) && !empty {
+                let list =
+                    allowed.map_or_else(|| "different".into(), |allowed| format!("among {}", allowed.join(", ")));
+                let rule = format!("columns must be {list}, each at most once");
+                return Err(report.fatal(Some(table.line), rule, excerpt(name.as_bytes())));
             }
         }
-        Ok(Self { lines, header, line: 1, fields: Vec::new() })
+        table.header = header;
+        Ok(table)
     }
 
     /// A column, if it is there.
@@ -56,24 +87,43 @@ impl Table {
     /// A column that must be there.
     pub fn needs(&self, name: &str, report: &mut Report) -> Result<Column, Stop> {
         let found = format!("columns {}", self.header.join(", "));
-        self.column(name).ok_or_else(|| report.fatal(Some(1), format!("there must be a column {name}"), found))
+        self.column(name).ok_or_else(|| report.fatal(Some(self.line), format!("there must be a column {name}"), found))
     }
 
     /// The next line that is not empty and no remark (#).
     pub fn advance(&mut self, report: &mut Report) -> Result<bool, Stop> {
-        while let Some(line) = self.lines.next(report)? {
-            let text = line.text.trim_ascii();
-            if text.is_empty() || text[0] == b'#' {
-                continue;
+        while self.record(report)? {
+            // Spreadsheets end their lines with empty fields.
+            while self.fields.len() > self.header.len() && self.fields.last().is_some_and(String::is_empty) {
+                self.fields.pop();
             }
-            self.fields = split(text);
-            self.line = line.number;
-            if self.fields.len() > self.header.len() {
-                let found = format!("{} fields for {} columns", self.fields.len(), self.header.len());
-                report.line(self.line, "a line must not have more fields than the header", found)?;
-                continue;
+            if self.fields.len() <= self.header.len() {
+                return Ok(true);
             }
-            return Ok(true);
+            let decimals = if self.dialect.separator == b',' {
+                "; with commas before decimals, fields must be apart by semicolons"
+            } else {
+                ""
+            };
+            let found = format!("{} fields for {} columns{decimals}", self.fields.len(), self.header.len());
+            report.line(self.line, "a line must not have more fields than the header", found)?;
+        }
+        Ok(false)
+    }
+
+    /// Reads a line into `fields`.
+    fn record(&mut self, report: &mut Report) -> Result<bool, Stop> {
+        while let Some(record) = self.records.next() {
+            let record = record.map_err(|e| report.fatal(None, "the table cannot be read", e))?;
+            self.line = record.position().map_or(0, csv::Position::line) + self.dialect.lines;
+            let text = |field: &[u8]| String::from_utf8_lossy(field).trim().to_owned();
+            self.fields.clear();
+            let blanks = self.dialect.separator == b' ';
+            self.fields.extend(record.iter().map(text).filter(|field| !(blanks && field.is_empty())));
+            let first = self.fields.first().map_or("", String::as_str);
+            if !first.starts_with('#') && self.fields.iter().any(|field| !field.is_empty()) {
+                return Ok(true);
+            }
         }
         Ok(false)
     }
@@ -89,8 +139,22 @@ impl Table {
     }
 
     /// A field as a finite number, or a problem.
-    pub fn real(&self, column: Column, report: &mut Report) -> Result<Option<f64>, Stop> {
-        let value = real(self.text(column).as_bytes());
+    pub fn number(&mut self, column: Column, report: &mut Report) -> Result<Option<f64>, Stop> {
+        let text = self.fields.get(column.0).map_or("", String::as_str);
+        let (value, sign) = match real(text.as_bytes()) {
+            Some(value) => (Some(value), text.contains('.').then_some(b'.')),
+            None => (dialect::with_comma(text), Some(b',')),
+        };
+        if value.is_some()
+            && let Some(sign) = sign
+        {
+            let (first, line) = *self.decimal.get_or_insert((sign, self.line));
+            if first != sign {
+                let rule = "points and commas before decimals must not be mixed";
+                let found = format!("{}, and another in line {line}", excerpt(text.as_bytes()));
+                return Err(report.fatal(Some(self.line), rule, found));
+            }
+        }
         self.check(value, column, "a finite number", report)
     }
 

@@ -142,3 +142,71 @@ fn a_random_matrix_survives_every_format() {
     let head = format!("t\n{} {} {e} {e} 0\nRSA {n} {n} {e} 0\n(1I14) (1I14) (1E28.17)\n", n + 1 + 2 * e as u32, n + 1);
     assert_eq!(read("k.matrix", &(head + &pointers + &rows + &values)).matrix, matrix);
 }
+
+#[test]
+fn arrays_of_matrix_market_are_read() {
+    // scipy.io.mmwrite of a NumPy array, general and symmetric.
+    let general =
+        "%%MatrixMarket matrix array real general\n%\n3 3\n4.0000000000000000e+00\n-1\n0\n-1\n5\n-2.5\n0\n-2.5\n6\n";
+    let symmetric = "%%MatrixMarket matrix array real symmetric\n3 3\n4\n-1\n0\n5\n-2.5\n6\n";
+    for text in [general, symmetric, &general.replace('\n', "\r\n"), &format!("\u{feff}{general}")] {
+        assert_eq!(read("k.mtx", text).matrix, expected());
+    }
+}
+
+#[test]
+fn harwell_boeing_with_other_widths_than_announced_is_read_by_its_blanks() {
+    // scipy.io.hb_write of SciPy 1.17 announces (3E25.16) and writes 24 characters a field.
+    let text = "Default title                                                           KEY     \n\
+        \x20            5             1             1             3\n\
+        RUA                        3             3             7             0\n\
+        (4I3)           (7I2)           (3E25.16)           \n  1  3  6  8\n 1 2 1 2 3 2 3\n\
+        \x20 4.0000000000000000E+00 -1.0000000000000000E+00 -1.0000000000000000E+00\n\
+        \x20 5.0000000000000000E+00 -2.5000000000000000E+00 -2.5000000000000000E+00\n\
+        \x20 6.0000000000000000E+00\n";
+    assert_eq!(read("k.hb", text).matrix, expected());
+}
+
+#[test]
+fn dmig_is_read_from_a_punch_with_several_matrices() {
+    // As EXTSEOUT(STIFFNESS,MASS,DMIGPCH) punches it: the value touches the component.
+    let column =
+        |name: &str, rows: &str| format!("DMIG*   {name}                                   1               5\n{rows}");
+    let k = "DMIG    KAAX           0       6       2       0                       0\n".to_owned()
+        + &column(
+            "KAAX",
+            "*                                      1               5 4.000000000D+00\n\
+                           *                                      2               3-1.000000000D+00\n",
+        )
+        + &column(
+            "KAAX",
+            "*                                      2               3 5.000000000D+00\n\
+                           *                                      2               5-2.500000000D+00\n",
+        )
+        .replace("               1               5\n", "               2               3\n")
+        + &column("KAAX", "*                                      2               5 6.000000000D+00\n")
+            .replace("               1               5\n", "               2               5\n");
+    let m = "DMIG    MAAX           0       6       2       0                       0\n".to_owned()
+        + &column("MAAX", "*                                      1               5 7.000000000D+00\n");
+    let text = format!("$TITLE = BRIDGE\nGRID           1       0     0.0     0.0     0.0\n{k}{m}");
+    let labels = [(1, 4), (2, 2), (2, 4)].map(|(node, freedom)| Dof { node, freedom });
+    let read = |letter, size, labels: Option<&[Dof]>| {
+        read_matrix(&Input::bytes("a.pch", text.as_bytes()).of(letter), None, size, labels).unwrap()
+    };
+    let stiffness = read('K', None, None);
+    assert_eq!((stiffness.facts.format, stiffness.labels.as_deref()), (Format::Dmig, Some(&labels[..])));
+    assert_eq!(stiffness.matrix, expected());
+    assert_eq!(read('M', Some(3), Some(&labels)).matrix.diagonal(), [7.0, 0.0, 0.0]);
+}
+
+#[test]
+fn what_octave_and_matlab_save_as_text_is_read() {
+    // Octave: save -text K.txt K of a sparse matrix. Matlab: [i j v] saved with -ascii.
+    let octave = "# Created by Octave 8.4.0, Mon Jan 01 00:00:00 2024 UTC <u@h>\n# name: K\n# type: sparse matrix\n\
+        # nnz: 7\n# rows: 3\n# columns: 3\n1 1 4\n2 1 -1\n1 2 -1\n2 2 5\n3 2 -2.5\n2 3 -2.5\n3 3 6\n\n\n";
+    let matlab = "   1.0000000e+00   1.0000000e+00   4.0000000e+00\r\n   2.0000000e+00   1.0000000e+00  -1.0000000e+00\r\n\
+        \x20  2.0000000e+00   2.0000000e+00   5.0000000e+00\r\n   3.0000000e+00   2.0000000e+00  -2.5000000e+00\r\n\
+        \x20  3.0000000e+00   3.0000000e+00   6.0000000e+00\r\n";
+    assert_eq!(read("K.txt", octave).matrix, expected());
+    assert_eq!(read("K.txt", matlab).matrix, expected());
+}

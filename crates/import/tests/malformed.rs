@@ -18,12 +18,13 @@ fn broken_files_are_refused_with_line_rule_and_value() {
         (String::new(), "f: the file must hold a matrix: it holds no line of data"),
         (
             "1 2\n3 4\n".into(),
-            "f: line 1: the format must be Matrix Market, Harwell-Boeing, or lines of 3 or 5 numbers: 2 fields",
+            "f: line 1: the format must be Matrix Market, Harwell-Boeing, DMIG, or lines of 3 or 5 numbers: 2 fields; a line of \
+             sizes belongs into Matrix Market, below its first line",
         ),
         // Matrix Market
         (
-            "%%MatrixMarket matrix array real general\n1 1\n1\n".into(),
-            "line 1: a sparse matrix must be in coordinate format: `array`",
+            "%%MatrixMarket matrix sparse real general\n1 1\n1\n".into(),
+            "line 1: the matrix must be in coordinate or array format: `sparse`",
         ),
         (
             "%%MatrixMarket vector coordinate real general\n".into(),
@@ -47,7 +48,10 @@ fn broken_files_are_refused_with_line_rule_and_value() {
         (mm("2 2 3\n1 1 1\n2 2 1\n"), "line 4: the header announces 3 entries: the file ends after 2"),
         (mm("2 2 2\n1 1 1\n2 2 1\n2 1 1\n"), "line 5: the header announces 2 entries: more lines follow"),
         (mm("2 2 2\n1 1 1\n3 2 1\n"), "line 4: row and column must lie between 1 and 2: 3, 2"),
-        (mm("2 2 2\n1 1 1\n0 2 1\n"), "line 4: row and column must lie between 1 and 2: 0, 2"),
+        (
+            mm("2 2 2\n1 1 1\n0 2 1\n"),
+            "line 4: row and column must lie between 1 and 2: 0, 2; rows and columns count from 1",
+        ),
         (mm("2 2 2\n1 1 1\n-1 2 1\n"), "line 4: a line must hold row, column and value: `-1 2 1`"),
         (mm("2 2 2\n1 1 1\n2 2\n"), "line 4: a line must hold row, column and value: `2 2`"),
         (mm("2 2 2\n1 1 1\n2 2 1 1\n"), "line 4: a line must hold row, column and value: `2 2 1 1`"),
@@ -85,7 +89,7 @@ fn broken_files_are_refused_with_line_rule_and_value() {
         ),
         (
             "%%MatrixMarket matrix coordinate real general\n2 2 3\n1 1 4\n2 1 1\n2 2 4\n".into(),
-            "the matrix must be symmetric: a(2, 1) = 1e0, a(1, 2) = 0e0",
+            "the matrix must be symmetric: a(2, 1) = 1e0, a(1, 2) = 0e0; only one triangle is given: the header must say symmetric",
         ),
         // triplets
         (
@@ -160,7 +164,7 @@ fn garbage_is_refused_whatever_the_format() {
         (state >> 24) as u8
     });
     let garbage: Vec<u8> = garbage.take(300_000).collect();
-    let formats = [Format::MatrixMarket, Format::Triplets, Format::Labels, Format::HarwellBoeing];
+    let formats = [Format::MatrixMarket, Format::Triplets, Format::Labels, Format::HarwellBoeing, Format::Dmig];
     for format in formats.into_iter().map(Some).chain([None]) {
         refusal("f", &garbage, format);
         refusal("f", &vec![b'1'; 300_000], format);
@@ -188,4 +192,103 @@ fn another_size_than_the_stiffness_matrix_is_refused() {
     let said = read("1 1 1\n4 4 1\n").unwrap_err();
     assert!(said.contains("line 2: row and column must lie between 1 and 3: 4, 4"), "{said}");
     assert_eq!(read("1 1 1\n").unwrap().matrix.n, 3);
+}
+
+#[test]
+fn a_first_line_that_is_not_understood_is_never_read_as_data() {
+    let cases = [
+        (
+            "%MatrixMarket matrix coordinate real symmetric\n2 2 3\n1 1 4\n2 1 -1\n2 2 5\n",
+            "line 1: a header must be understood, not passed over as a remark: `%MatrixMarket matrix coordinate real symmetric`: the first line of a Matrix Market file begins with %%MatrixMarket",
+        ),
+        (
+            "# from Octave\n%%MatrixMarket matrix coordinate real symmetric\n2 2 3\n1 1 4\n2 1 -1\n2 2 5\n",
+            "line 2: a header must be understood",
+        ),
+        (
+            "2 2 3\n1 1 4\n2 1 -1\n2 2 5\n",
+            "line 1: a line of sizes must not stand above lines of row, column and value: remove it, or write the header of a Matrix Market file: 2 2 3, and 3 lines of data follow",
+        ),
+        // The count is that of both triangles.
+        ("2 2 4\n1 1 4\n2 1 -1\n2 2 5\n", "line 1: a line of sizes"),
+        ("% a remark\n\n3 3 4\n1 1 4\n2 1 -1\n2 2 5\n1 1 1\n", "line 3: a line of sizes"),
+        ("2 3\n1 1 4\n2 1 -1\n2 2 5\n", "line 1: the format must be"),
+        ("3\n1 1 4\n2 1 -1\n2 2 5\n", "line 1: the format must be"),
+        ("row col value\n1 1 4\n", "line 1: a line must hold row, column and value: `row col value`"),
+        (
+            "# Created by Octave\n# name: K\n# type: matrix\n# rows: 3\n# columns: 3\n 4 -1 0\n -1 5 -2\n 0 -2 6\n",
+            "line 3: a header must be understood",
+        ),
+        (
+            "4 -1 0 0 0 0\n-1 4 0 0 0 0\n",
+            "line 1: the format must be Matrix Market, Harwell-Boeing, DMIG, or lines of 3 or 5 numbers: 6 fields; a matrix in full is written by scipy.io.mmwrite",
+        ),
+        (
+            "     100     100       6       2KAA     1P,3E23.16\n       1       1       3\n",
+            "this is no matrix that can be read here: OUTPUT4 of Nastran",
+        ),
+    ];
+    for (text, expected) in cases {
+        let said = refusal("f", text.as_bytes(), None);
+        assert!(
+            said.contains(expected) || expected.starts_with("this") && said.contains("OUTPUT4 of Nastran"),
+            "{text}\n{said}"
+        );
+    }
+    for format in [Format::Triplets, Format::Labels] {
+        refusal("f", cases[0].0.as_bytes(), Some(format));
+    }
+}
+
+#[test]
+fn broken_arrays_are_refused() {
+    let array = |rest: &str| format!("%%MatrixMarket matrix array real {rest}");
+    for (text, expected) in [
+        (array("general\n2 3\n1\n2\n"), "line 2: the matrix must be square: 2 rows, 3 columns"),
+        (array("general\n2 2 4\n1\n2\n"), "line 2: the line after the comments must hold rows and columns: `2 2 4`"),
+        (
+            array("general\n2 2\n4\n-1\n-1\n"),
+            "line 5: the header announces 2 columns: the file ends in column 2, at row 2",
+        ),
+        (array("symmetric\n2 2\n4\n-1\n5\n6\n"), "line 6: the header announces 2 columns: more values follow"),
+        (array("general\n2 2\n4\n-1\nx\n5\n"), "line 5: values must be finite numbers: `x`"),
+        (array("general\n2 2\n4\n-1\n-2\n5\n"), "the matrix must be symmetric: a(2, 1) = -1e0, a(1, 2) = -2e0"),
+        (array("general\n4000000000 4000000000\n1\n"), "line 2: the header must announce what the file can hold"),
+        (array("general\n100000 100000\n1\n"), "line 2: the header must announce what the file can hold"),
+    ] {
+        let said = refusal("f", text.as_bytes(), None);
+        assert!(said.contains(expected), "{text}\n{said}");
+    }
+}
+
+#[test]
+fn broken_dmig_is_refused() {
+    let good = "DMIG    KAAX           0       6       2       0                       0\n\
+        DMIG*   KAAX                                   1               5\n\
+        *                                      1               5 4.000000000D+00\n";
+    for (from, to, expected) in [
+        (
+            "       6       2",
+            "       2       2",
+            "line 1: a DMIG matrix must be symmetric or square (form 6 or 1) and real (type 1 or 2)",
+        ),
+        ("       6       2", "       6       4", "line 1: a DMIG matrix must be symmetric or square"),
+        (
+            "DMIG*   KAAX                                   1               5",
+            "DMIG    KAAX           1       5               1       5     4.0",
+            "line 2: entries of DMIG must have wide fields (DMIG*)",
+        ),
+        ("4.000000000D+00", "x", "line 3: values must be finite numbers: `x`"),
+        (
+            "               5 4.0",
+            "               7 4.0",
+            "line 3: a line of DMIG* must hold grid point, component 1 to 6 and value",
+        ),
+        ("KAAX", "MAAX", "the file must hold a DMIG matrix whose name begins with K: MAAX"),
+    ] {
+        let text = good.replace(from, to);
+        let input = Input::bytes("f", text.as_bytes()).of('K');
+        let said = read_matrix(&input, None, None, None).unwrap_err().to_string();
+        assert!(said.contains(expected), "{text}\n{said}");
+    }
 }

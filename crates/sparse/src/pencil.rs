@@ -4,6 +4,8 @@
 //! combination c_K K + c_M M + c_C C that a time integrator or an eigenvalue solver factorises has it too: the ordering and the
 //! symbolic factorisation are made once, see [`Pencil::factor`].
 
+use std::collections::HashMap;
+
 use faer::sparse::{SparseColMatRef, SymbolicSparseColMat};
 
 use crate::entries::{Entry, merged};
@@ -61,6 +63,25 @@ impl Pencil {
     pub fn stiffness_of_magnitudes(&self, x: &[f64]) -> f64 {
         let term = |(i, j, k): (usize, usize, f64)| if i == j { 1.0 } else { 2.0 } * (k * x[i] * x[j]).abs();
         self.stiffness_entries().map(term).sum()
+    }
+    /// What errors of K's entries make of twice the strain energy, root of the sum of squares.
+    ///
+    /// ```text
+    /// √(Σ_g (f(|g|) Σ_ij ±x_i x_j)²)     over all numbers g, and all entries K_ij = ±g
+    /// ```
+    ///
+    /// f is the error's standard deviation. Entries of the same amount have the same error: elements that are alike were
+    /// rounded alike.
+    pub fn stiffness_errors(&self, x: &[f64], f: impl Fn(f64) -> f64) -> f64 {
+        let mut groups: HashMap<u64, f64> = HashMap::new();
+        for (i, j, k) in self.stiffness_entries() {
+            let term = if i == j { 1.0 } else { 2.0 } * x[i] * x[j];
+            *groups.entry(k.abs().to_bits()).or_default() += term * k.signum();
+        }
+        // In a fixed order, so that the sum does not depend on that of the map.
+        let mut groups: Vec<(u64, f64)> = groups.into_iter().collect();
+        groups.sort_unstable_by_key(|(bits, _)| *bits);
+        groups.into_iter().map(|(bits, sum)| (f(f64::from_bits(bits)) * sum).powi(2)).sum::<f64>().sqrt()
     }
     /// Row, column and number of every entry of K's lower triangle.
     fn stiffness_entries(&self) -> impl Iterator<Item = (usize, usize, f64)> {

@@ -71,6 +71,7 @@ pub fn assemble(model: &Model, supports: &[f64], points: &[Point]) -> Result<Ass
     let points = points.map(|(motion, point)| Monitor { name: point.name.clone(), motion, moment: None }).collect();
     let System { equations, mass, .. } = system;
     Ok(Assembled {
+        digits: None,
         equations,
         nodes: model.nodes.iter().map(|(_, x, y, z)| [*x, *y, *z]).collect(),
         node_of: freedoms.motions.iter().map(|motion| motion / 6).collect(),

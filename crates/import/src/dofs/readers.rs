@@ -18,7 +18,7 @@ pub(super) fn table(
     coordinates: &mut HashMap<u32, [f64; 3]>,
     report: &mut Report,
 ) -> Result<Vec<Found>, Stop> {
-    let mut table = Table::open(input, &["row", "node", "direction", "x", "y", "z"], report)?;
+    let mut table = Table::open(input, Some(&["row", "node", "direction", "x", "y", "z"]), report)?;
     let [row, node, along] = ["row", "node", "direction"].map(|name| table.needs(name, report));
     let (row, node, along) = (row?, node?, along?);
     let places = places(&table, report)?;
@@ -29,7 +29,7 @@ pub(super) fn table(
         let freedom = direction(table.text(along));
         let freedom = table.check(freedom, along, "one of x, y, z, rx, ry, rz", report)?;
         if let (Some(places), Some(node)) = (places, node) {
-            place(&table, places, node, coordinates, report)?;
+            place(&mut table, places, node, coordinates, report)?;
         }
         if let (Some(row), Some(node), Some(freedom)) = (row, node, freedom) {
             rows.push((table.line(), row, Dof { node, freedom }));
@@ -48,7 +48,7 @@ fn places(table: &Table, report: &mut Report) -> Result<Option<[Column; 3]>, Sto
 }
 
 fn place(
-    table: &Table,
+    table: &mut Table,
     places: [Column; 3],
     node: u32,
     coordinates: &mut HashMap<u32, [f64; 3]>,
@@ -56,7 +56,7 @@ fn place(
 ) -> Result<(), Stop> {
     let mut at = [0.0; 3];
     for (at, column) in at.iter_mut().zip(places) {
-        match table.real(column, report)? {
+        match table.number(column, report)? {
             Some(value) => *at = value,
             None => return Ok(()),
         }
@@ -71,14 +71,14 @@ fn place(
 
 /// Reads coordinates of nodes: columns node, x, y, z.
 pub(crate) fn nodes(input: &Input, report: &mut Report) -> Result<HashMap<u32, [f64; 3]>, Stop> {
-    let mut table = Table::open(input, &["node", "x", "y", "z"], report)?;
+    let mut table = Table::open(input, Some(&["node", "x", "y", "z"]), report)?;
     let node = table.needs("node", report)?;
     table.needs("x", report)?;
     let places = places(&table, report)?;
     let mut all = HashMap::new();
     while table.advance(report)? {
         if let (Some(node), Some(places)) = (table.count(node, report)?, places) {
-            place(&table, places, node, &mut all, report)?;
+            place(&mut table, places, node, &mut all, report)?;
         }
     }
     Ok(all)

@@ -1,5 +1,7 @@
 //! Fortran's fixed fields: so many of such a width on a line.
 
+use std::ops::Range;
+
 use crate::lines::Lines;
 use crate::problem::{Report, Stop};
 
@@ -56,18 +58,26 @@ fn number(rest: &mut &[u8]) -> Option<usize> {
 }
 
 /// Reads fields one after the other.
+///
+/// Where blanks separate as many fields as the line must hold, they count, and not the widths: some programs (SciPy's
+/// `hb_write`) announce other widths than they write.
 pub(super) struct Cards<'a> {
     lines: &'a mut Lines,
     format: CardFormat,
     line: Vec<u8>,
+    /// Where the fields of the line lie.
+    fields: Vec<Range<usize>>,
     /// Fields of the line already read.
     read: usize,
+    /// Fields still to come, the line's not counted.
+    left: u64,
     what: &'a str,
 }
 
 impl<'a> Cards<'a> {
-    pub fn new(lines: &'a mut Lines, format: CardFormat, what: &'a str) -> Self {
-        Self { lines, format, line: Vec::new(), read: format.repeat, what }
+    /// Of `count` fields in all.
+    pub fn new(lines: &'a mut Lines, format: CardFormat, count: u64, what: &'a str) -> Self {
+        Self { lines, format, line: Vec::new(), fields: Vec::new(), read: 0, left: count, what }
     }
 
     /// Line of the last field.
@@ -77,16 +87,35 @@ impl<'a> Cards<'a> {
 
     /// The next field without blanks around it.
     pub fn next(&mut self, report: &mut Report) -> Result<&[u8], Stop> {
-        if self.read == self.format.repeat {
+        if self.read == self.fields.len() {
             let line = self.lines.expect(self.what, report)?;
             self.line.clear();
             self.line.extend_from_slice(line.text);
             self.read = 0;
+            let most = self.format.repeat.min(usize::try_from(self.left).unwrap_or(usize::MAX)).max(1);
+            self.left = self.left.saturating_sub(most as u64);
+            self.split(most);
         }
-        let from = (self.read * self.format.width).min(self.line.len());
-        let to = (from + self.format.width).min(self.line.len());
+        let field = self.fields[self.read].clone();
         self.read += 1;
-        Ok(self.line[from..to].trim_ascii())
+        Ok(self.line[field].trim_ascii())
+    }
+
+    /// Finds the fields of a line that must hold `count`.
+    fn split(&mut self, count: usize) {
+        self.fields.clear();
+        let mut at = 0;
+        for word in self.line.split(u8::is_ascii_whitespace) {
+            if !word.is_empty() {
+                self.fields.push(at..at + word.len());
+            }
+            at += word.len() + 1;
+        }
+        if self.fields.len() != count {
+            let (width, length) = (self.format.width, self.line.len());
+            self.fields.clear();
+            self.fields.extend((0..count).map(|k| (k * width).min(length)..((k + 1) * width).min(length)));
+        }
     }
 }
 

@@ -1,5 +1,5 @@
 //! Harwell–Boeing, assembled real matrices (Duff, Grimes, Lewis, Users' guide for the Harwell-Boeing sparse matrix
-//! collection, 1992), as ANSYS' HBMAT writes them.
+//! collection, 1992), as ANSYS' HBMAT and SciPy's `hb_write` write them.
 //!
 //! Pointers of the columns, then all rows, then all values. Rows and values are read side by side from two places of the
 //! file, so that neither has to be kept.
@@ -41,8 +41,8 @@ pub(super) fn scan<const VALUES: bool>(
     if VALUES {
         value_lines.skip(head.before_values, report)?;
     }
-    let mut rows = Cards::new(&mut lines, head.formats[1], "row numbers");
-    let mut values = Cards::new(&mut value_lines, head.formats[2], "values");
+    let mut rows = Cards::new(&mut lines, head.formats[1], head.entries, "row numbers");
+    let mut values = Cards::new(&mut value_lines, head.formats[2], head.entries, "values");
     let known = Known { size: Some(head.rows), ..known };
     for (j, ends) in pointers.windows(2).enumerate() {
         for _ in ends[0]..ends[1] {
@@ -59,6 +59,7 @@ pub(super) fn scan<const VALUES: bool>(
             if VALUES {
                 let field = values.next(report)?;
                 value = real(field);
+                report.written(field);
                 let shown = if value.is_none() { excerpt(field) } else { String::new() };
                 if value.is_none() {
                     report.line(values.line(), "values must be finite numbers", shown)?;
@@ -148,7 +149,7 @@ fn groups(text: &[u8]) -> impl Iterator<Item = &[u8]> {
 
 /// Where columns begin, from 0.
 fn pointers(lines: &mut Lines, head: &Head, report: &mut Report) -> Result<Vec<u64>, Stop> {
-    let mut cards = Cards::new(lines, head.formats[0], "pointers of the columns");
+    let mut cards = Cards::new(lines, head.formats[0], u64::from(head.rows) + 1, "pointers of the columns");
     let mut pointers = Vec::new();
     let mut last = 1;
     for j in 0..=head.rows {

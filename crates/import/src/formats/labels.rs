@@ -40,6 +40,7 @@ pub(super) fn collect(input: &Input, report: &mut Report) -> Result<Vec<Dof>, St
     let mut all = Numbering::default();
     while let Some(line) = lines.next(report)? {
         if triplets::is_comment(line.text) {
+            triplets::remark(&line, report)?;
             continue;
         }
         let Some(([row, column], _)) = labels(&line, report)? else { continue };

@@ -1,6 +1,6 @@
-//! Matrix Market, coordinate format (Boisvert, Pozo, Remington, The Matrix Market exchange formats, NISTIR 5935, 1996).
+//! Matrix Market, coordinate and array format (Boisvert, Pozo, Remington, The Matrix Market exchange formats, NISTIR 5935, 1996).
 
-use super::{Heading, Known, triplets};
+use super::{Heading, Known, array, triplets};
 use crate::collect::Symmetry;
 use crate::input::Input;
 use crate::lines::Lines;
@@ -21,7 +21,10 @@ pub(super) fn scan<const VALUES: bool>(
     mut hand_on: impl FnMut(u32, u32, f64),
 ) -> Result<Heading, Stop> {
     let mut lines = Lines::open(input, report)?;
-    let symmetry = banner(&mut lines, report)?;
+    let (symmetry, array) = banner(&mut lines, report)?;
+    if array {
+        return array::scan(&mut lines, &known, symmetry, report, hand_on);
+    }
     let (rows, announced) = size(&mut lines, &known, report)?;
     known.size = Some(rows);
     let mut found = 0_u64;
@@ -43,7 +46,8 @@ pub(super) fn scan<const VALUES: bool>(
     Ok(Heading { rows: Some(rows), symmetry })
 }
 
-fn banner(lines: &mut Lines, report: &mut Report) -> Result<Symmetry, Stop> {
+/// The symmetry, and whether all entries follow.
+fn banner(lines: &mut Lines, report: &mut Report) -> Result<(Symmetry, bool), Stop> {
     let line = lines.expect("%%MatrixMarket", report)?;
     let lower = line.text.to_ascii_lowercase();
     let mut fields = Fields::new(&lower);
@@ -52,15 +56,16 @@ fn banner(lines: &mut Lines, report: &mut Report) -> Result<Symmetry, Stop> {
     if words[0] != b"%%matrixmarket" || words[1] != b"matrix" {
         return refuse("the first line must begin with %%MatrixMarket matrix", line.text);
     }
-    if words[2] != b"coordinate" {
-        return refuse("a sparse matrix must be in coordinate format", words[2]);
+    let array = words[2] == b"array";
+    if !array && words[2] != b"coordinate" {
+        return refuse("the matrix must be in coordinate or array format", words[2]);
     }
-    if !matches!(words[3], b"real" | b"integer" | b"double") {
+    if !matches!(words[3], b"real" | b"integer" | b"double" | b"unsigned-integer") {
         return refuse("the matrix must be real or integer", words[3]);
     }
     match words[4] {
-        b"symmetric" => Ok(Symmetry::Triangle),
-        b"general" => Ok(Symmetry::Full),
+        b"symmetric" => Ok((Symmetry::Triangle, array)),
+        b"general" => Ok((Symmetry::Full, array)),
         other => refuse("the matrix must be symmetric or general", other),
     }
 }

@@ -21,7 +21,7 @@ pub(super) fn entry<const VALUES: bool>(
     hand_on: &mut impl FnMut(u32, u32, f64),
 ) -> Result<(), Stop> {
     let mut fields = Fields::new(line.text);
-    let (Some(row), Some(column)) = (fields.whole(), fields.whole()) else {
+    let (Some(row), Some(column)) = (fields.position(), fields.position()) else {
         return report.line(line.number, "a line must hold row, column and value", excerpt(line.text));
     };
     let (Some(i), Some(j)) = (known.index(row), known.index(column)) else {
@@ -47,6 +47,7 @@ pub(super) fn value<const VALUES: bool>(
     }
     let field = fields.remainder();
     let value = real(field);
+    report.written(field);
     if value.is_none() {
         if field.is_empty() || Fields::new(field).next().len() < field.len() {
             report.line(line.number, rule, excerpt(line.text))?;
@@ -57,6 +58,51 @@ pub(super) fn value<const VALUES: bool>(
     Ok(value)
 }
 
+/// A remark may be a header in a form that is not understood: what follows is then no data.
+pub(super) fn remark(line: &Line<'_>, report: &mut Report) -> Result<(), Stop> {
+    const RULE: &str = "a header must be understood, not passed over as a remark";
+    let text = line.text.to_ascii_lowercase();
+    let has = |word: &[u8]| text.windows(word.len()).any(|part| part == word);
+    if has(b"matrixmarket") {
+        let found =
+            format!("{}: the first line of a Matrix Market file begins with %%MatrixMarket", excerpt(line.text));
+        return Err(report.fatal(Some(line.number), RULE, found));
+    }
+    // GNU Octave, `save -text`: its sparse matrices are lines of row, column, value.
+    if has(b"# type:") && !has(b"sparse") {
+        let found = format!("{}: write a sparse matrix, or Matrix Market", excerpt(line.text));
+        return Err(report.fatal(Some(line.number), RULE, found));
+    }
+    Ok(())
+}
+
+/// The first line where it may hold sizes instead of an entry: n, n, and a whole number of at least n.
+struct Suspect {
+    line: u64,
+    n: u64,
+    entries: u64,
+}
+
+impl Suspect {
+    fn new(line: &Line<'_>) -> Option<Self> {
+        let mut fields = Fields::new(line.text);
+        let (rows, n, entries) = (fields.whole()?, fields.whole()?, fields.whole()?);
+        (rows == n && entries >= n && fields.end()).then_some(Self { line: line.number, n, entries })
+    }
+
+    /// After all other lines: sizes if as many follow as it says, or the last diagonal entry is there again; and if no
+    /// index is larger.
+    fn judge(&self, others: u64, largest: u64, again: bool, report: &mut Report) -> Result<(), Stop> {
+        if largest > self.n || others == 0 || !(others == self.entries || again) {
+            return Ok(());
+        }
+        let found = format!("{n} {n} {}, and {others} lines of data follow", self.entries, n = self.n);
+        let rule = "a line of sizes must not stand above lines of row, column and value: remove it, or write the header \
+                    of a Matrix Market file";
+        Err(report.fatal(Some(self.line), rule, found))
+    }
+}
+
 pub(super) fn scan<const VALUES: bool>(
     input: &Input,
     known: Known<'_>,
@@ -64,10 +110,30 @@ pub(super) fn scan<const VALUES: bool>(
     mut hand_on: impl FnMut(u32, u32, f64),
 ) -> Result<Heading, Stop> {
     let mut lines = Lines::open(input, report)?;
+    let (mut suspect, mut others, mut largest, mut again) = (None::<Suspect>, None::<u64>, 0, false);
     while let Some(line) = lines.next(report)? {
-        if !is_comment(line.text) {
-            entry::<VALUES>(&line, &known, report, &mut hand_on)?;
+        if is_comment(line.text) {
+            remark(&line, report)?;
+            continue;
         }
+        match &mut others {
+            None => {
+                suspect = Suspect::new(&line);
+                others = Some(0);
+            }
+            Some(others) => *others += 1,
+        }
+        let follows = others != Some(0);
+        let last = suspect.as_ref().map_or(0, |suspect| suspect.n);
+        let mut look = |i: u32, j: u32, value: f64| {
+            largest = largest.max(u64::from(i.max(j)) + 1);
+            again |= follows && i == j && u64::from(i) + 1 == last;
+            hand_on(i, j, value);
+        };
+        entry::<VALUES>(&line, &known, report, &mut look)?;
+    }
+    if let Some(suspect) = suspect {
+        suspect.judge(others.unwrap_or(0), largest, again, report)?;
     }
     Ok(Heading { rows: None, symmetry: Symmetry::Either })
 }

@@ -96,7 +96,7 @@ fn faults_against_the_schema_are_all_found() {
                 ],
                 &[(
                     "$.bridge.structure.files.format",
-                    "must be one of matrix-market, triplets, labels, harwell-boeing",
+                    "must be one of matrix-market, triplets, labels, harwell-boeing, dmig",
                 )],
             ),
             case(
