@@ -62,6 +62,7 @@ fn find<T: DeserializeOwned>(files: Files, name: &str) -> Option<T> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::data::PLAUSIBLE;
 
     #[test]
     fn every_bundled_file_is_readable_and_names_its_source() {
@@ -71,7 +72,7 @@ mod tests {
         assert!(track_names().all(|name| track(name).is_some()));
         assert!(spectrum_names().all(|name| spectrum(name).is_some()));
         assert!(frame_names().all(|name| frame(name).is_some()));
-        for (name, text) in [CARS, TRAINS, TRACKS, SPECTRA, FRAMES].concat() {
+        for (name, text) in [CARS, TRAINS, TRACKS, SPECTRA, FRAMES, PLAUSIBLE].concat() {
             let value: serde_json::Value = serde_json::from_str(text).expect(name);
             assert!(value["source"].as_str().is_some_and(|source| source.len() > 20), "{name}");
         }

@@ -17,6 +17,8 @@ pub(crate) const SPECTRA: Files =
     files!("spectra": "german-low", "german-high", "sncf-good", "sncf-poor", "china-ballastless");
 pub(crate) const FRAMES: Files = files!("bridges": "cable-stayed-224");
 
+pub(crate) const PLAUSIBLE: Files = files!("plausible": "ranges", "frequencies", "results");
+
 /// Names that may stand in a train's list of cars: cars and whole trains.
 pub fn train_names() -> impl Iterator<Item = &'static str> {
     CARS.iter().chain(TRAINS).map(|(name, _)| *name)

@@ -3,6 +3,7 @@
 //! [`load()`] reads a scenario file and gives [`Checked`]: two specs, from which the physics crates build their models, or
 //! [`Problems`]: everything that is wrong with the file, each with its place and the rule it breaks.
 
+mod believable;
 pub mod bundled;
 mod check;
 mod data;
@@ -17,6 +18,7 @@ pub mod passage;
 mod pieces;
 pub mod place;
 mod problem;
+mod ranges;
 mod resolve;
 mod schema;
 mod settings;
@@ -28,10 +30,12 @@ pub mod travel;
 pub mod types;
 mod walk;
 
+pub use believable::{Believable, believable};
 pub use bundled::default_scenario_text;
-pub use load::{Checked, from_str, from_str_with, load, load_with};
+pub use load::{Checked, from_str, from_str_with, load, load_with, read_as};
 pub use place::Chosen;
-pub use problem::{Problem, Problems, nearest};
+pub use problem::{Problem, Problems, Warning, nearest};
 pub use schema::{model_schema, schema};
 pub use settings::Setting;
 pub use ttb_contract::GRAVITY;
+pub use ttb_import::text as read_text;

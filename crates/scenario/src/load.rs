@@ -8,11 +8,13 @@
 
 use std::path::Path;
 
+use serde::de::DeserializeOwned;
+use serde_json::Value;
 use sha2::{Digest, Sha256};
 
 use crate::pieces::Pieces;
 use crate::place::{Chosen, place};
-use crate::problem::{MUST_FIT, Problems, Report};
+use crate::problem::{MUST_FIT, Problems, Report, Warning};
 use crate::settings::Setting;
 use crate::spec::{BridgeSpec, StructureSpec, TrainTrackSpec};
 use crate::step::Steps;
@@ -34,6 +36,8 @@ pub struct Checked {
     pub chosen: Vec<Chosen>,
     /// Between which times peaks count, s.
     pub peaks: [f64; 2],
+    /// The same as values: of which place, which quantity, what is usual. Later findings stand in `warnings` alone.
+    pub findings: Vec<Warning>,
     /// SHA-256 (hexadecimal) of the two specs and the coupling settings as JSON and of all imported files: of all that
     /// decides the result, not of the file's layout, titles, or the choice of output.
     pub hash: String,
@@ -69,7 +73,7 @@ pub fn load(path: &Path) -> Result<Checked, Problems> {
 /// As [`load`], and settings of keys that no scenario has.
 pub fn load_with(path: &Path, settings: &[Setting]) -> Result<Checked, Problems> {
     let name = path.display().to_string();
-    let text = std::fs::read_to_string(path).map_err(|error| {
+    let text = ttb_import::text(path).map_err(|error| {
         let mut report = Report::new(&name);
         report.problem("", "the scenario file cannot be read", error);
         report.into_problems()
@@ -132,8 +136,26 @@ pub fn from_str_with(text: &str, base_dir: &Path, file_name: &str, settings: &[S
         scenario,
         train_track,
         bridge,
-        warnings: report.warnings,
+        warnings: report.warnings.iter().map(ToString::to_string).collect(),
+        findings: report.warnings,
     })
+}
+
+/// Reads a JSON document of another kind than a scenario by its schema, with the same messages.
+///
+/// # Errors
+/// Everything that does not fit the schema.
+pub fn read_as<T: DeserializeOwned>(text: &str, schema: &Value, file_name: &str) -> Result<T, Problems> {
+    let mut report = Report::new(file_name);
+    let Some(document) = json::read(text, &mut report) else { return Err(report.into_problems()) };
+    walk::walk(schema, &document.value, &document.reported, &mut report);
+    if report.problems.is_empty() {
+        match serde_json::from_value(document.value) {
+            Ok(value) => return Ok(value),
+            Err(error) => report.problem("$", MUST_FIT, error),
+        }
+    }
+    Err(report.into_problems())
 }
 
 fn hash(train_track: &TrainTrackSpec, bridge: &BridgeSpec, coupling: &CouplingSettings) -> String {
@@ -144,7 +166,10 @@ fn hash(train_track: &TrainTrackSpec, bridge: &BridgeSpec, coupling: &CouplingSe
     if let StructureSpec::Matrices { files, folder, .. } = &bridge.structure {
         for file in files.names() {
             // One that cannot be read is reported when the bridge is built.
-            let _ = std::fs::File::open(folder.join(file)).and_then(|mut file| std::io::copy(&mut file, &mut digest));
+            let path = folder.join(file);
+            if path.is_file() {
+                let _ = std::fs::File::open(path).and_then(|mut file| std::io::copy(&mut file, &mut digest));
+            }
         }
     }
     digest.0.finalize().iter().map(|byte| format!("{byte:02x}")).collect()

@@ -22,7 +22,7 @@ use crate::{json, schema, walk};
 /// All problems of the model; a file that cannot be read is one.
 pub fn load(path: &Path) -> Result<Model, Problems> {
     let mut report = Report::new(&path.display().to_string());
-    match std::fs::read_to_string(path) {
+    match ttb_import::text(path) {
         Ok(text) => from_str(text, &mut report),
         Err(error) => {
             report.problem("", "the model file cannot be read", error);
@@ -35,7 +35,7 @@ pub fn load(path: &Path) -> Result<Model, Problems> {
 
 /// Reads the model that a scenario names; its problems are told of its own file, even if the rest of it can be used.
 pub(crate) fn read(path: &Path, report: &mut Report) -> Option<Model> {
-    match std::fs::read_to_string(path) {
+    match ttb_import::text_of_file(path) {
         Ok(text) => {
             let mut inside = Report::new(&path.display().to_string());
             let model = from_str(text, &mut inside);

@@ -4,8 +4,8 @@ use serde::de::DeserializeOwned;
 use serde_json::Value;
 
 use crate::types::{
-    Bridge, CarChoice, CouplingSettings, Csv, Damping, Irregularity, Newmark, Point, Rail, RailPoint, Speed, Structure,
-    Time, Track, TrackChoice, Train,
+    Bridge, CarChoice, Contact, CouplingSettings, Csv, Damping, Irregularity, Newmark, Point, Rail, RailPoint, Speed,
+    Structure, Time, Track, TrackChoice, Train,
 };
 
 /// Whatever can be read; `None` is what the schema's walker has complained about.
@@ -13,6 +13,7 @@ pub(crate) struct Pieces {
     pub train: Option<Train>,
     pub cars: Vec<Option<CarChoice>>,
     pub speed: Option<Speed>,
+    pub contact: Option<Contact>,
     pub track: Option<Track>,
     pub track_type: Option<TrackChoice>,
     pub rail: Option<Rail>,
@@ -40,6 +41,7 @@ impl Pieces {
             train: piece(&scenario["train"]),
             cars: list(&scenario["train"]["cars"]),
             speed: piece(&scenario["train"]["speed"]),
+            contact: or_default(&scenario["contact"]),
             track: or_default(&scenario["track"]),
             track_type: or_default(&scenario["track"]["type"]),
             rail: piece(&scenario["track"]["type"]["rail"]),

@@ -3,6 +3,8 @@
 use std::collections::BTreeMap;
 use std::fmt;
 
+use serde::Serialize;
+
 /// So many problems of one kind are listed; of the others only the number is told.
 const LISTED: usize = 20;
 
@@ -41,6 +43,40 @@ impl fmt::Display for Problem {
     }
 }
 
+/// What is allowed, but rarely meant.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct Warning {
+    /// The value it is about, as a JSON path; empty: the scenario as a whole.
+    pub path: String,
+    /// The quantity, if it is one with a usual range.
+    pub name: String,
+    /// Its value.
+    pub value: Option<f64>,
+    /// Its unit.
+    pub unit: String,
+    /// Where it usually lies.
+    pub usual: [Option<f64>; 2],
+    /// What may have been meant.
+    pub slip: Option<String>,
+    /// Where the range comes from.
+    pub source: String,
+    /// All of it as a sentence, with the path.
+    pub text: String,
+}
+
+impl Warning {
+    /// Without a range.
+    pub(crate) fn at(path: &str, text: impl Into<String>) -> Self {
+        Self { path: path.into(), text: text.into(), ..Self::default() }
+    }
+}
+
+impl fmt::Display for Warning {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.text)
+    }
+}
+
 /// All problems of a scenario; never empty where it is an error.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Problems(pub Vec<Problem>);
@@ -65,7 +101,7 @@ pub(crate) struct Report {
     /// Broken rules.
     pub problems: Vec<Problem>,
     /// What is allowed, but rarely meant.
-    pub warnings: Vec<String>,
+    pub warnings: Vec<Warning>,
     /// How often each rule was broken.
     broken: BTreeMap<String, usize>,
 }
@@ -131,8 +167,18 @@ impl Report {
         });
     }
 
+    /// Warns of something that belongs to no single value.
     pub fn warn(&mut self, text: impl Into<String>) {
-        self.warnings.push(text.into());
+        self.note(Warning::at("", text));
+    }
+
+    /// Notes a warning, unless the same value of the same quantity has been noted.
+    pub fn note(&mut self, warning: Warning) {
+        let same =
+            |other: &Warning| other.name == warning.name && other.value == warning.value && warning.value.is_some();
+        if !self.warnings.iter().any(same) {
+            self.warnings.push(warning);
+        }
     }
 }
 

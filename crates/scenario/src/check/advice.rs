@@ -1,8 +1,9 @@
 //! Warnings: settings that are allowed, but known to spoil results (limits measured for this program).
 
+use super::passage;
 use super::places::{Passage, Rail};
 use crate::pieces::Pieces;
-use crate::problem::Report;
+use crate::problem::{Report, Warning};
 use crate::resolve::Resolved;
 use crate::spec::Profile;
 use crate::travel::DEFAULT_RAMP;
@@ -25,11 +26,17 @@ pub(super) struct Places<'a> {
 pub(super) fn give(pieces: &Pieces, resolved: &Resolved, places: &Places, report: &mut Report) {
     let Places { rail, passage, bridge } = *places;
     if let Some(step) = pieces.time.and_then(|time| time.step.given()).filter(|step| *step > LONG_STEP) {
-        report.warn(format!("step {step} s: more than {LONG_STEP} s costs accuracy in accelerations"));
+        let slip = if LONG_STEP >= 1e-3 * step && step >= 0.01 { ": given in ms?" } else { "" };
+        let text = format!("step {step} s: more than {LONG_STEP} s costs accuracy in accelerations{slip}");
+        report.note(Warning::at("$.time.step", text));
     }
     if let (Some(rail), Some(passage)) = (rail, passage) {
         margin(passage.rear - rail.from, "begins", "behind the last wheel at the start", report);
         margin(rail.to - passage.end, "ends", "ahead of the leading wheel at the end of the run", report);
+    }
+    if let (Some(passage), Some(bridge)) = (passage, bridge) {
+        let constant = resolved.speed.as_ref().and_then(|speed| speed.first().filter(|_| speed.len() == 1));
+        passage::give(passage, bridge, constant.map(|[_, v]| *v), report);
     }
     if let (Some(rail), Some(profile)) = (rail, &resolved.profile) {
         waves(rail, profile, report);

@@ -3,10 +3,13 @@
 mod advice;
 mod bridge;
 mod frame;
+mod frequency;
 mod graph;
 mod layout;
 pub(crate) mod model;
+mod passage;
 mod places;
+mod plausible;
 mod run;
 
 pub(crate) use run::chosen_steps;
@@ -40,4 +43,5 @@ pub(crate) fn check(pieces: &Pieces, resolved: &Resolved, placed: &Placement, re
     }
     bridge::check(pieces, resolved, report);
     layout::check(pieces, resolved, placed, report);
+    plausible::check(pieces, resolved, report);
 }

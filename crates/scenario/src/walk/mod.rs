@@ -5,6 +5,7 @@
 //! `spectrum` is reported as just that.
 
 mod branch;
+mod elsewhere;
 mod limits;
 #[cfg(test)]
 mod samples;
@@ -53,6 +54,7 @@ impl<'a> Walker<'a> {
                 Some(property) => self.check(property, value, &format!("{path}.{key}")),
                 None if schema["additionalProperties"] == false => {
                     let near = nearest(key, properties.keys().map(String::as_str));
+                    let near = elsewhere::place(self.root, key, path).or(near);
                     self.report.suggest(format!("{path}.{key}"), "unknown key", format!("`{key}`"), near);
                 }
                 None => {}

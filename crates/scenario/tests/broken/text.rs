@@ -22,7 +22,7 @@ fn numbers_that_are_none_are_reported_with_their_path_and_hide_nothing() {
         format!("broken.json: $.irregularity.wavelengths[1]: {rule}: Infinity")
     );
     assert_eq!(
-        found("\"step\": 1e-3, \"end\": 2", "\"step\": -Infinity, \"end\": -2"),
+        found("\"step\": 1e-3, \"end\": 2.4", "\"step\": -Infinity, \"end\": -2"),
         format!("broken.json: $.time.step: {rule}: -Infinity\nbroken.json: $.time.end: must be greater than 0: -2")
     );
 }
