@@ -14,7 +14,20 @@ struct Once {
     deck: spatial::Side,
     /// Whether there may be others for trial steps.
     several: bool,
+    /// What it derives, if it does.
+    derives: Option<Derives>,
     steps: usize,
+}
+
+/// Derivatives that are not those of a step.
+#[derive(Clone, Copy, Debug)]
+enum Derives {
+    /// Those of the instant: displacements and velocities are states, forces do not change them at once.
+    Instant,
+    /// A hundred times too large.
+    TooLarge,
+    /// Promised and refused; who asks a bridge for them cannot go on with it.
+    Refused,
 }
 
 impl Subsystem for Once {
@@ -51,7 +64,21 @@ impl Subsystem for Once {
         let [_, mut deck] = sides(1.0);
         deck.set_inputs(inputs, None)?;
         deck.exit_initialization()?;
-        Ok(Some(Box::new(Once { deck, several: false, steps: 0 })))
+        Ok(Some(Box::new(Once { deck, several: false, derives: self.derives, steps: 0 })))
+    }
+    fn can_derive(&self) -> bool {
+        self.derives.is_some()
+    }
+    fn derivative(&mut self, seed: &[f64], change: &mut [f64]) -> Result<(), Failure> {
+        match self.derives {
+            Some(Derives::Instant) => change.fill(0.0),
+            Some(Derives::TooLarge) => change.iter_mut().zip(seed.iter().cycle()).for_each(|(c, s)| *c = 1e-4 * s),
+            _ => {
+                assert!(!self.several, "the bridge itself was asked");
+                return Err(Failure { subsystem: "once".into(), message: "no derivatives".into() });
+            }
+        }
+        Ok(())
     }
     fn name(&self) -> &str {
         "once"
@@ -73,8 +100,12 @@ fn settings() -> Settings {
 
 /// Greatest error of displacements at the end, relative; ρ at the start; the error estimate.
 fn run(h: f64, several: bool) -> Result<(f64, Option<f64>, f64), IterationError> {
+    run_deriving(h, several, None)
+}
+
+fn run_deriving(h: f64, several: bool, derives: Option<Derives>) -> Result<(f64, Option<f64>, f64), IterationError> {
     let [mut track, deck] = sides(1.0);
-    let mut deck = Once { deck, several, steps: 0 };
+    let mut deck = Once { deck, several, derives, steps: 0 };
     let mut coupling = Coupling::new(ports(1.0), settings());
     coupling.initialise(&mut track, &mut deck, 0.0)?;
     let steps = (END / h).round() as usize;
@@ -121,4 +152,19 @@ fn a_strong_coupling_is_refused_before_the_first_step_where_it_can_be_known() {
         assert!((rho / exact - 1.0).abs() < 0.05, "{rho} for {exact}");
     }
     assert!(run(2e-3, false).expect("stable").1.is_none(), "nobody can be asked");
+}
+
+#[test]
+fn derivatives_that_are_not_those_of_a_step_change_neither_the_refusal_nor_the_run() {
+    let Err(IterationError::Unstable { rho: Some(wanted), .. }) = run(2e-2, true) else { panic!("it ran") };
+    let plain = run(1e-3, true).expect("stable");
+    for derives in [Derives::Instant, Derives::TooLarge, Derives::Refused] {
+        let refused = run_deriving(2e-2, true, Some(derives));
+        let Err(IterationError::Unstable { t: 0.0, rho: Some(rho), residual: 0.0, .. }) = refused else {
+            panic!("{derives:?}: {refused:?}")
+        };
+        assert_eq!((rho, run_deriving(1e-3, true, Some(derives)).expect("stable")), (wanted, plain), "{derives:?}");
+    }
+    // Where nothing can be tried, what they say is no reason to trust the scheme.
+    assert_eq!(run_deriving(1e-3, false, Some(Derives::Instant)).expect("stable").1, None);
 }

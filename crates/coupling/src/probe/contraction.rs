@@ -11,11 +11,12 @@
 //! Δa = 2 Δḋ/h  (= 4 Δd/h² where no rates are known),    α = max |Δa|/|v|,  1/kg
 //! ```
 
-use ttb_contract::Ports;
 use ttb_contract::finite::larger;
+use ttb_contract::{Ports, Subsystem};
 
 use crate::algebra::norm;
 use crate::error::IterationError;
+use crate::report::STABLE;
 use crate::trial::{Sides, Trials};
 
 /// Trials of the power iteration beyond the first.
@@ -77,8 +78,10 @@ pub(crate) fn contraction(trials: &mut Trials, sides: &mut Sides) -> Result<Stre
     Ok(strength)
 }
 
-/// The same without a step of the bridge itself: by its directional derivatives or by trial instances of it, and by trials
-/// of the train–track side. `None` if the bridge has neither, or refuses them before its first step.
+/// The same without a step of the bridge itself: by trial instances of it, and by trials of the train–track side. Directional
+/// derivatives may mean the instant and not the step: they save trial instances once they have given what a step gives. Where
+/// there are no trial instances they can only warn: what says that all is well may be the wrong derivative. `None` if the bridge
+/// has neither.
 pub(crate) fn apart(trials: &mut Trials, sides: &mut Sides) -> Result<Option<Strength>, IterationError> {
     let (mut v, load) = begin(trials);
     let share = trials.exchange.share_of_force(sides.bridge);
@@ -90,6 +93,7 @@ pub(crate) fn apart(trials: &mut Trials, sides: &mut Sides) -> Result<Option<Str
     // Derivatives are those for inputs as they will be given.
     trials.exchange.announce(sides, trials.forces.now(), trials.forces.now())?;
     let (mut strength, mut at_rest) = (None::<Strength>, None);
+    let mut derivatives = Derivatives::of(sides.bridge);
     for _ in 0..POWER {
         let size = norm(&v);
         if !(size > 0.0 && size.is_finite()) {
@@ -97,12 +101,21 @@ pub(crate) fn apart(trials: &mut Trials, sides: &mut Sides) -> Result<Option<Str
         }
         let factor = load / size;
         v.iter_mut().for_each(|v| *v *= factor);
-        let known = if sides.bridge.can_derive() {
-            v.iter_mut().for_each(|v| *v *= share);
-            sides.bridge.derivative(&v, &mut change).is_ok()
-        } else {
-            change_apart(trials, sides, &v, &mut at_rest, &mut change)?
-        };
+        let seed: Vec<f64> = v.iter().map(|v| v * share).collect();
+        let mut known = false;
+        if matches!(derivatives, Derivatives::None | Derivatives::Untested) {
+            known = change_apart(trials, sides, &v, &mut at_rest, &mut change)?;
+            if known && matches!(derivatives, Derivatives::Untested) {
+                let holds = derivatives_hold_apart(trials, sides, &seed, &change)?;
+                derivatives = if holds { Derivatives::Hold } else { Derivatives::None };
+            }
+        }
+        if !known && !matches!(derivatives, Derivatives::None) {
+            known = sides.bridge.derivative(&seed, &mut change).is_ok();
+            if matches!(derivatives, Derivatives::Untested) {
+                derivatives = Derivatives::Untestable;
+            }
+        }
         if !known {
             break;
         }
@@ -117,7 +130,57 @@ pub(crate) fn apart(trials: &mut Trials, sides: &mut Sides) -> Result<Option<Str
         strength = Some(Strength { rho: norm(&v) / size, acceleration, trials: 0 });
     }
     sides.train_track.restore()?;
-    Ok(strength)
+    let vouched = |strength: &Strength| strength.rho > STABLE || !matches!(derivatives, Derivatives::Untestable);
+    Ok(strength.filter(vouched))
+}
+
+/// What is known of a bridge's directional derivatives.
+enum Derivatives {
+    /// There are none, or they are not those of a step.
+    None,
+    /// Nothing yet.
+    Untested,
+    /// There is no trial instance to test them on.
+    Untestable,
+    /// They are those of a step.
+    Hold,
+}
+
+impl Derivatives {
+    fn of(bridge: &dyn Subsystem) -> Self {
+        if bridge.can_derive() { Self::Untested } else { Self::None }
+    }
+}
+
+/// Derivatives off by more than this, relatively, are not those of the steps.
+const CREDIBLE: f64 = 1e-3;
+
+/// Whether derived changes of the motion are those that were seen. Positions and rates have different units: each part is
+/// compared with itself.
+pub(crate) fn alike(ports: &Ports, seen: &[f64], derived: &[f64]) -> bool {
+    let parts = ports.parts(seen).each().into_iter().zip(ports.parts(derived).each());
+    parts.into_iter().all(|(seen, derived)| {
+        let off: f64 = seen.iter().zip(derived).map(|(seen, derived)| (seen - derived).powi(2)).sum();
+        let whole: f64 = seen.iter().map(|seen| seen.powi(2)).sum();
+        off <= CREDIBLE * CREDIBLE * whole
+    })
+}
+
+/// Whether a trial instance that stands where the bridge stands derives the change that a step showed. The bridge itself is
+/// not asked: one that refuses could not go on.
+fn derivatives_hold_apart(
+    trials: &mut Trials,
+    sides: &mut Sides,
+    seed: &[f64],
+    seen: &[f64],
+) -> Result<bool, IterationError> {
+    let now = trials.forces.now();
+    let Some(mut bridge) = sides.bridge.trial_instance(now)? else { return Ok(false) };
+    let mut trial = Sides { train_track: &mut *sides.train_track, bridge: &mut *bridge, t: sides.t, h: sides.h };
+    trials.exchange.announce(&mut trial, now, now)?;
+    let mut derived = vec![0.0; seen.len()];
+    let answered = trial.bridge.derivative(seed, &mut derived).is_ok();
+    Ok(answered && alike(trials.exchange.ports(), seen, &derived))
 }
 
 /// What a change of the forces changes of the motion after a step, seen on trial instances; `at_rest` keeps the motion

@@ -6,12 +6,9 @@
 
 use crate::acceleration::newton::Model;
 use crate::error::IterationError;
-use crate::probe::contraction::{CHANGE, shape};
+use crate::probe::contraction::{CHANGE, alike, shape};
 use crate::report::Source;
 use crate::trial::{Sides, Trials};
-
-/// Derivatives off by more than this, relatively, are not those of the steps.
-const CREDIBLE: f64 = 1e-3;
 
 /// The model, where it came from, and the trials it took.
 pub(crate) struct Identified {
@@ -78,17 +75,8 @@ fn derivatives_hold(
     let probe: Vec<f64> = at.iter().enumerate().map(|(i, t)| t + wave(i)).collect();
     sides.bridge.restore()?;
     trials.exchange.bridge(sides, trials.forces.now(), &probe, true)?;
-    // Positions and rates have different units: each part is compared with itself.
-    let ports = trials.exchange.ports();
-    let parts = |of: &[f64]| ports.parts(of).each().map(<[f64]>::to_vec);
-    let (seen, before, change) = (parts(&trials.exchange.motion), parts(motion), parts(&change));
-    let near = |k: usize| {
-        let seen = || seen[k].iter().zip(&before[k]).map(|(seen, before)| seen - before);
-        let off: f64 = seen().zip(&change[k]).map(|(seen, change)| (seen - change).powi(2)).sum();
-        let whole: f64 = seen().map(|seen| seen.powi(2)).sum();
-        off <= CREDIBLE * CREDIBLE * whole
-    };
-    let holds = derived.is_ok() && (0..3).all(near);
+    let seen: Vec<f64> = trials.exchange.motion.iter().zip(motion).map(|(seen, before)| seen - before).collect();
+    let holds = derived.is_ok() && alike(trials.exchange.ports(), &seen, &change);
     sides.bridge.restore()?;
     trials.exchange.bridge(sides, trials.forces.now(), at, true)?;
     Ok(holds)

@@ -199,6 +199,19 @@ mod tests {
         assert_eq!(response(6.0, 6e3).mismatch(), Some(Mismatch::Alone(0, 1e3)));
         assert_eq!(response(6e3, -6.0).mismatch(), Some(Mismatch::Alone(1, -1e3)));
         assert_eq!(response(6e6, 6e3).mismatch(), Some(Mismatch::Alone(0, 1e-3)));
+        assert_eq!(response(f64::INFINITY, 6e3).mismatch(), Some(Mismatch::Still(0)));
+        // Both masses are credible, or neither is, and they contradict each other: it is one of the two.
+        assert_eq!(response(6e2, 6e3).mismatch(), Some(Mismatch::OneOf(10.0)));
+        assert_eq!(response(6e-3, 6.0).mismatch(), Some(Mismatch::OneOf(1e3)));
+    }
+
+    #[test]
+    fn a_single_displacement_against_its_own_force_is_found() {
+        let mut response = response(6e3, 6e3);
+        (response.probed, response.compliance) = (vec![4, 10], vec![1.0, 0.2, 0.2, -1.0]);
+        assert_eq!(response.mismatch(), Some(Mismatch::Against(10)));
+        response.compliance = vec![1.0, 0.2, 0.2, 1.0];
+        assert_eq!(response.mismatch(), None);
     }
 
     #[test]
