@@ -3,7 +3,7 @@
 //! ```text
 //! error, signals           what ends a command, from inside and from outside
 //! files, clock             files that are whole or not there, processor time
-//! printed, cli            text on its way to a terminal; the command line
+//! cli                     the command line
 //! connect                 from FMU files to two coupled subsystems
 //! results                 what a run leaves: rows, peaks, summary
 //! pictures                histories and errors drawn as SVG and PNG
@@ -33,6 +33,8 @@ macro_rules! note {
     }};
 }
 
+pub use ttb_fmi::text as printed;
+
 pub mod assess;
 pub mod cli;
 pub mod clock;
@@ -42,7 +44,6 @@ pub mod error;
 pub mod files;
 pub mod pictures;
 pub mod prepare;
-pub mod printed;
 pub mod results;
 pub mod signals;
 pub mod system;

@@ -19,7 +19,14 @@ fn main() {
     }
     let command = Cli::parse().command;
     // What works for another process of this program ends as that one says.
-    let stop = if command.serves() { Stop::default() } else { Stop::watch() };
+    let stop = if command.serves() {
+        Stop::default()
+    } else {
+        let stop = Stop::watch();
+        // An FMU in this process must not end it, nor leave it otherwise than it was.
+        ttb_fmi::guard::arm();
+        stop
+    };
     let code = match execute(command, &stop) {
         Ok(()) => 0,
         Err(error) => {

@@ -5,6 +5,7 @@ use crate::description::DescriptionError;
 use crate::library::LibraryError;
 use crate::log::Message;
 use crate::status::Status;
+use crate::text::one_line;
 use std::path::PathBuf;
 
 /// An FMU that cannot be loaded or did not do what it was asked.
@@ -48,14 +49,14 @@ pub enum FmuError {
         /// What was logged during the call.
         messages: Vec<Message>,
     },
-    /// The process of an isolated FMU has ended.
-    #[error("{instance}: {call}: its process {how}{}", logged(messages))]
+    /// The process of an isolated FMU has ended, or the FMU was to end this one.
+    #[error("{instance}: {call}: {how}{}", logged(messages))]
     Gone {
         /// Name of the instance.
         instance: String,
         /// The call, with its time.
         call: String,
-        /// The signal or exit code, or that it gave no answer in time.
+        /// The signal or exit code, or that it gave no answer in time, as a sentence.
         how: String,
         /// What was logged during the call.
         messages: Vec<Message>,
@@ -88,6 +89,6 @@ fn logged(messages: &[Message]) -> String {
     if messages.is_empty() {
         return String::new();
     }
-    let lines = messages.iter().map(|m| m.text.trim()).collect::<Vec<_>>();
+    let lines = messages.iter().map(|m| one_line(m.text.trim())).collect::<Vec<_>>();
     format!("; it logged: {}", lines.join(" | "))
 }

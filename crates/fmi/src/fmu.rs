@@ -3,6 +3,7 @@
 use crate::archive::unpack;
 use crate::description::{DescriptionError, ModelDescription};
 use crate::error::FmuError;
+use crate::guard;
 use crate::instance::FmuInstance;
 use crate::isolate::{self, Isolation};
 use crate::log::Sink;
@@ -75,7 +76,10 @@ impl Fmu {
                 let (log, folder) = (Arc::clone(&sink), self.folder.path());
                 let (slave, time) = Arc::clone(library).instantiate(name, &description.guid, folder, log, logging);
                 let (instance, call) = (name.to_string(), (self.version.symbol)(Call::Instantiate));
-                let none = || FmuError::NoInstance { instance, call, messages: sink.take() };
+                let none = || match guard::ended() {
+                    Some(how) => FmuError::Gone { instance, call: call.into(), how, messages: sink.take() },
+                    None => FmuError::NoInstance { instance, call, messages: sink.take() },
+                };
                 (slave.ok_or_else(none)?, time)
             }
             Home::Apart { fmu, isolation } => isolate::start(

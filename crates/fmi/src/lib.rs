@@ -10,7 +10,8 @@
 //!
 //! A crate for one version of FMI (`ttb-fmi2`) implements [`slave::Slave`] and [`version::Library`] over the C functions of
 //! that version and gives a [`version::Version`]; nothing here knows a function of FMI by its type. [`resources`] serves
-//! the export side, [`temporary`] and [`leave()`] the end of the program, [`platform`] gathers what depends on the
+//! the export side, [`temporary`] and [`leave()`] the end of the program, [`guard`] keeps foreign calls
+//! from what is not theirs, [`platform`] gathers what depends on the
 //! operating system.
 
 #[cfg(feature = "import")]
@@ -22,6 +23,8 @@ mod error;
 #[cfg(feature = "import")]
 mod fmu;
 #[cfg(feature = "import")]
+pub mod guard;
+#[cfg(feature = "import")]
 mod instance;
 #[cfg(feature = "import")]
 pub mod isolate;
@@ -31,6 +34,8 @@ mod leave;
 pub mod library;
 #[cfg(feature = "import")]
 pub mod log;
+#[cfg(feature = "import")]
+pub mod output;
 pub mod platform;
 pub mod resources;
 #[cfg(feature = "import")]
@@ -40,6 +45,8 @@ mod status;
 mod subsystem;
 #[cfg(feature = "import")]
 pub mod temporary;
+#[cfg(feature = "import")]
+pub mod text;
 #[cfg(feature = "import")]
 mod transform;
 #[cfg(feature = "import")]

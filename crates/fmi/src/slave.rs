@@ -21,11 +21,23 @@ impl Answer {
     pub const NOTHING: Self = Self { status: Status::Error as i32, time: Duration::ZERO, warnings: 0 };
 }
 
-/// The calls, whatever they are called in a version of FMI.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[allow(missing_docs)] // their names say it
-#[repr(u8)]
-pub enum Call {
+/// Declares [`Call`] and the list of all.
+macro_rules! calls {
+    ($($name:ident,)*) => {
+        /// The calls, whatever they are called in a version of FMI.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        #[allow(missing_docs)] // their names say it
+        #[repr(u8)]
+        pub enum Call { $($name,)* }
+
+        impl Call {
+            /// All of them, each at the place of its number.
+            pub const ALL: &[Self] = &[$(Self::$name,)*];
+        }
+    };
+}
+
+calls! {
     Instantiate,
     SetupExperiment,
     EnterInitialization,
@@ -105,8 +117,8 @@ pub trait Slave: Send {
         None
     }
 
-    /// How the FMU's process came to its end, if it did.
-    fn ended(&self) -> Option<&str> {
+    /// How the FMU came to its end, if it did: a sentence after its name.
+    fn ended(&self) -> Option<String> {
         None
     }
 

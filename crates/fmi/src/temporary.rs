@@ -20,7 +20,7 @@ use std::hash::{BuildHasher, RandomState};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::process::{ChildStdin, Command, Stdio};
-use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::sync::{Mutex, MutexGuard, OnceLock, PoisonError};
 
 /// A folder in the temporary directory. Dropping it removes it with all that is in it.
 #[derive(Debug)]
@@ -61,7 +61,7 @@ impl Temporary {
     pub fn new(prefix: &str) -> io::Result<Self> {
         // A name that nobody can foresee: RandomState has its keys from the system.
         let number = RandomState::new().hash_one(std::process::id());
-        let path = std::path::absolute(std::env::temp_dir())?.join(format!("{prefix}{number:016x}"));
+        let path = directory()?.join(format!("{prefix}{number:016x}"));
         let mut register = register();
         register.announce(&path);
         platform::create_private_folder(&path)?;
@@ -73,6 +73,13 @@ impl Temporary {
     pub fn path(&self) -> &Path {
         &self.path
     }
+}
+
+/// The temporary directory as it is called at the first folder: foreign code may change the environment.
+fn directory() -> io::Result<&'static Path> {
+    static DIRECTORY: OnceLock<PathBuf> = OnceLock::new();
+    let first = std::path::absolute(std::env::temp_dir())?;
+    Ok(DIRECTORY.get_or_init(|| first))
 }
 
 impl Drop for Temporary {
@@ -125,6 +132,9 @@ pub fn keep() -> io::Result<()> {
     let _ = std::env::set_current_dir("/");
     let parent = std::env::var(PARENT).ok().and_then(|number| number.parse().ok());
     let folders = platform::read_until_parent_is_gone(parent)?;
+    // Whatever lost processes of foreign code have left behind.
+    #[cfg(target_os = "linux")]
+    parent.into_iter().for_each(platform::process::end_started_by);
     // An isolated FMU's process, which ends at the same moment, may still write: once more then.
     for folder in folders.split(|byte| *byte == 0).filter(|folder| !folder.is_empty()) {
         let folder = platform::path(folder);

@@ -9,5 +9,7 @@ pub mod export;
 #[cfg(feature = "import")]
 pub mod import;
 #[cfg(feature = "import")]
+mod logger;
+#[cfg(feature = "import")]
 pub mod probe;
 pub mod types;

@@ -169,6 +169,18 @@ fn warnings_are_counted_and_messages_are_kept_within_bounds() {
 }
 
 #[test]
+fn a_message_with_another_environment_belongs_to_the_instance_that_is_called() {
+    let made = foreign(CAPABLE, false);
+    let fmu = ttb_fmi2::import::open(&made.path).unwrap();
+    let (mut stranger, mut other) = (stepping(&fmu, "stranger"), stepping(&fmu, "chatty"));
+    stranger.do_step(0.0, 0.1, true).unwrap();
+    other.do_step(0.0, 0.1, true).unwrap();
+    let texts: Vec<_> = stranger.take_messages().into_iter().map(|m| m.text).collect();
+    assert_eq!(texts, ["stranger 0", "stranger 1", "stranger 2", "stranger 3"]);
+    assert_eq!(other.take_messages()[199].text, "message 999");
+}
+
+#[test]
 fn text_that_is_no_format_is_logged_as_it_is() {
     let made = foreign(CAPABLE, false);
     let mut instance = ttb_fmi2::import::open(&made.path).unwrap().instantiate("odd", false).unwrap();

@@ -194,21 +194,38 @@ fn nothing_is_left_of_an_instance_its_folder_and_its_offspring() {
     let folder = fmu.folder().to_path_buf();
     let mut instance = begin(&fmu, "parent").unwrap();
     instance.do_step(0.0, 0.1, true).unwrap(); // forks
+    let mut other = begin(&fmu, "daemon").unwrap();
+    other.do_step(0.0, 0.1, true).unwrap(); // forks, out of its group
     let library = folder.join("binaries/linux64/Foreign.so");
     let users = || {
         let processes = std::fs::read_dir("/proc").unwrap().flatten();
         let maps = |path: PathBuf| std::fs::read_to_string(path.join("maps")).unwrap_or_default();
         processes.filter(|entry| maps(entry.path()).contains(library.to_str().unwrap())).count()
     };
-    assert_eq!(users(), 2);
-    drop(fmu); // the instance keeps the folder
+    let begun = Instant::now();
+    while users() != 4 && begun.elapsed() < Duration::from_secs(5) {
+        std::thread::sleep(Duration::from_millis(10)); // a process that is just ending may hide another one
+    }
+    assert_eq!(users(), 4);
+    drop(fmu); // the instances keep the folder
     assert!(folder.exists());
-    drop(instance);
+    drop((instance, other));
     let begin = Instant::now();
     while users() > 0 && begin.elapsed() < Duration::from_secs(5) {
         std::thread::sleep(Duration::from_millis(10)); // the offspring is init's to collect
     }
     assert_eq!((users(), folder.exists()), (0, false));
+}
+
+#[test]
+fn what_an_fmu_prints_and_closes_is_taken_for_nothing_else() {
+    let (fmu, lines) = isolated(&capable(), 10.0);
+    for name in ["mark", "closer"] {
+        let mut instance = begin(&fmu, name).unwrap();
+        (0..3).for_each(|i| instance.do_step(f64::from(i), 1.0, true).unwrap());
+    }
+    let said = lines.lock().unwrap();
+    assert_eq!(said.iter().filter(|line| *line == "mark: after it").count(), 3, "{said:?}");
 }
 
 #[test]

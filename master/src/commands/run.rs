@@ -206,6 +206,8 @@ fn run_connected(
             &mut progress,
         ],
     );
+    // What is written from here on goes to the folder that was current at the beginning.
+    ttb_fmi::guard::put_back();
     log.ended = clock();
     log.reached = progress.reached;
     bar.finish_and_clear();

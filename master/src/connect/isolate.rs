@@ -14,6 +14,9 @@ use crate::error::Error;
 /// How long a call may take if nothing else is said, s.
 pub const TIMEOUT: f64 = 60.0;
 
+/// EBADF.
+const BAD_DESCRIPTOR: i32 = 9;
+
 /// Decides where an FMU runs.
 #[derive(Default)]
 pub struct Isolated {
@@ -58,6 +61,13 @@ impl Isolated {
     pub fn advise(&self, error: Error, arguments: &Run) -> Error {
         let [train_track, bridge] = arguments.given();
         let exposed = train_track && self.train_track.is_none() || bridge && self.bridge.is_none();
+        // Nobody but foreign code in this process closes files that are written.
+        let error = match error {
+            Error::Io { path, source } if exposed && source.raw_os_error() == Some(BAD_DESCRIPTOR) => {
+                Error::Fmu(format!("{}: {source}: an FMU has closed a file that was not its own", path.display()))
+            }
+            other => other,
+        };
         match error {
             Error::Fmu(text) if AVAILABLE && exposed => Error::Fmu(format!(
                 "{text}\nA given FMU runs in this process and can end it: --isolate runs it in one of its own."

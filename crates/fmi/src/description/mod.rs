@@ -7,7 +7,7 @@ pub mod tree;
 
 pub use error::DescriptionError;
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 /// An FMU's description of itself.
 #[derive(Clone, Debug, Default)]
@@ -28,8 +28,12 @@ pub struct ModelDescription {
     pub stop_time: Option<f64>,
     /// Suggested communication step in s.
     pub step_size: Option<f64>,
-    /// Units by name.
+    /// Units by name, those that say what they are in SI.
     pub units: HashMap<String, Unit>,
+    /// Names of all defined units: what they are in SI need not be said.
+    pub defined_units: HashSet<String>,
+    /// Names of the log categories.
+    pub log_categories: Vec<String>,
     /// All variables in the order of the file.
     pub variables: Vec<ScalarVariable>,
     by_name: HashMap<String, usize>,

@@ -20,7 +20,9 @@ impl Element<'_> {
     pub fn attribute(&self, name: &str) -> Option<String> {
         let found = self.0.attributes().with_checks(false).flatten().find(|a| a.key.into_inner() == name)?;
         let value = found.normalized_value(XmlVersion::Implicit1_0);
-        Some(value.map_or_else(|_| found.value.to_string(), |value| value.into_owned()))
+        let value = value.map_or_else(|_| found.value.to_string(), |value| value.into_owned());
+        // Names are of the type normalizedString, in which a line ends nowhere, however it is written.
+        Some(if value.contains(['\n', '\r', '\t']) { value.replace(['\n', '\r', '\t'], " ") } else { value })
     }
 
     /// An attribute as a number, with blanks around it or not.

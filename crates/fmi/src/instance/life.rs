@@ -213,7 +213,7 @@ impl FmuInstance {
         let instance = self.name.clone();
         if let Some(how) = self.slave.ended() {
             self.health = Health::Gone;
-            let (how, messages) = (how.to_string(), self.sink.since(mark));
+            let messages = self.sink.since(mark);
             return Err(FmuError::Gone { instance, call: format!("{call} at t = {} s", self.time), how, messages });
         }
         match status {
@@ -275,7 +275,7 @@ impl Drop for FmuInstance {
             self.slave.free_instance();
         }
         if let Some(how) = self.slave.ended() {
-            self.slave.report(&format!("{}: its process {how}", (self.version.symbol)(call)));
+            self.slave.report(&format!("{}: {how}", (self.version.symbol)(call)));
         }
     }
 }

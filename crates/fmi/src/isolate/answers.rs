@@ -4,10 +4,10 @@ use super::call::Op;
 use super::control::{CONTROL, Control, PROGRESS, Ring};
 use super::payload::{Payload, from_list};
 use crate::platform;
-use crate::slave::{Answer, Slave};
+use crate::platform::memory::Shared;
+use crate::slave::{Answer, Call, Slave};
 use crate::status::Status;
 use crate::version::{Library, Version};
-use std::os::fd::OwnedFd;
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::Ordering::Relaxed;
@@ -16,10 +16,15 @@ use std::time::Duration;
 /// Status of a reply beside those of FMI: the request made no sense.
 pub const NO_SENSE: i32 = 99;
 
+/// An answer that took no time.
+fn fine(status: Status) -> Answer {
+    Answer { status: status as i32, time: Duration::ZERO, warnings: 0 }
+}
+
 /// The FMU and what it is called with.
 pub struct Answers {
     version: &'static Version,
-    memory: OwnedFd,
+    memory: Shared,
     control: Control,
     payload: Payload,
     folder: PathBuf,
@@ -31,7 +36,7 @@ pub struct Answers {
 
 impl Answers {
     /// Nothing is loaded yet.
-    pub fn new(version: &'static Version, memory: OwnedFd, control: Control, payload: Payload) -> Self {
+    pub fn new(version: &'static Version, memory: Shared, control: Control, payload: Payload) -> Self {
         let (folder, bytes) = (PathBuf::new(), Vec::new());
         Self { version, memory, control, payload, folder, library: None, slave: None, bytes }
     }
@@ -46,33 +51,37 @@ impl Answers {
 
     /// What an operation answers; nothing if it made no sense at this point.
     pub fn answer(&mut self, op: Op, a: [u64; 6]) -> Option<(Answer, u64)> {
-        let fine = |status: Status| Answer { status: status as i32, time: Duration::ZERO, warnings: 0 };
         let at = |i: usize| a[i] as usize;
-        match op {
-            Op::Load => return Some(self.load(at(0), at(1))),
-            Op::Instantiate => return self.instantiate(at(0), at(1), a[2] != 0),
+        Some(match op {
+            Op::Load => self.load(at(0), at(1)),
             Op::Grow => {
                 let grown = Payload::new(&self.memory, CONTROL, at(0), at(1));
                 let status = if grown.is_ok() { Status::Ok } else { Status::Error };
                 grown.into_iter().for_each(|payload| self.payload = payload);
-                return Some((fine(status), 0));
+                (fine(status), 0)
             }
             Op::Fetch => {
                 self.payload.write_bytes(0, &self.bytes);
-                return Some((fine(Status::Ok), 0));
+                (fine(Status::Ok), 0)
             }
-            Op::Flush | Op::Quit => return Some((fine(Status::Ok), 0)),
-            _ => {}
-        }
+            Op::Flush | Op::Quit => (fine(Status::Ok), 0),
+            Op::Call(Call::Instantiate) => self.instantiate(at(0), at(1), a[2] != 0)?,
+            Op::Call(call) => self.call(call, a)?,
+        })
+    }
+
+    /// What a call of the instance answers; nothing if there is none.
+    fn call(&mut self, call: Call, a: [u64; 6]) -> Option<(Answer, u64)> {
+        let at = |i: usize| a[i] as usize;
         let (slave, payload) = (self.slave.as_mut()?, &mut self.payload);
         let mut result = 0;
-        let answer = match op {
-            Op::SetupExperiment => {
+        let answer = match call {
+            Call::SetupExperiment => {
                 slave.setup_experiment(f64::from_bits(a[0]), (a[1] != 0).then(|| f64::from_bits(a[2])))
             }
-            Op::EnterInitialization => slave.enter_initialization(),
-            Op::ExitInitialization => slave.exit_initialization(),
-            Op::DoStep => {
+            Call::EnterInitialization => slave.enter_initialization(),
+            Call::ExitInitialization => slave.exit_initialization(),
+            Call::DoStep => {
                 let mut done = slave.do_step(f64::from_bits(a[0]), f64::from_bits(a[1]), a[2] != 0);
                 if a[4] > 0 && done.status <= Status::Warning as i32 {
                     let reply = &self.control.header().reply.numbers[PROGRESS];
@@ -84,73 +93,73 @@ impl Answers {
                 }
                 done
             }
-            Op::Terminate => slave.terminate(),
-            Op::Reset => slave.reset(),
-            Op::FreeInstance => {
+            Call::Terminate => slave.terminate(),
+            Call::Reset => slave.reset(),
+            Call::FreeInstance => {
                 slave.free_instance();
                 self.slave = None;
                 fine(Status::Ok)
             }
-            Op::GetReal => {
+            Call::GetReal => {
                 let ([list, _], values) = payload.in_place([(at(0), at(1)), (0, 0)], at(5), at(1));
                 slave.get_real(list, values)
             }
-            Op::SetReal => {
+            Call::SetReal => {
                 let ([list, _], values) = payload.in_place([(at(0), at(1)), (0, 0)], at(5), at(1));
                 slave.set_real(list, values)
             }
-            Op::SetInputDerivatives => {
+            Call::SetInputDerivatives => {
                 let ([list, orders], values) = payload.in_place([(at(0), at(1)), (at(2), at(1))], at(5), at(1));
                 slave.set_input_derivatives(list, from_list(orders), values)
             }
-            Op::DirectionalDerivative => {
+            Call::DirectionalDerivative => {
                 let lists = [(at(0), at(1)), (at(2), at(3))];
                 let ([unknown, known], values) = payload.in_place(lists, 0, at(1) + at(3));
                 let (seed, out) = values.split_at_mut(at(3));
                 slave.directional_derivative(unknown, known, seed, out)
             }
-            Op::GetInteger => {
+            Call::GetInteger => {
                 let mut value = 0;
                 let answer = slave.get_integer(a[0] as u32, &mut value);
                 result = u64::from(value as u32);
                 answer
             }
-            Op::GetBoolean => {
+            Call::GetBoolean => {
                 let mut value = false;
                 let answer = slave.get_boolean(a[0] as u32, &mut value);
                 result = u64::from(value);
                 answer
             }
-            Op::GetString => {
+            Call::GetString => {
                 let mut text = String::new();
                 let answer = slave.get_string(a[0] as u32, &mut text);
                 self.bytes = text.into_bytes();
                 result = self.bytes.len() as u64;
                 answer
             }
-            Op::SetInteger => slave.set_integer(a[0] as u32, a[1] as u32 as i32),
-            Op::SetBoolean => slave.set_boolean(a[0] as u32, a[1] != 0),
-            Op::SetString => slave.set_string(a[0] as u32, &String::from_utf8_lossy(&payload.read_bytes(0, at(1)))),
-            Op::GetState | Op::FreeState => {
+            Call::SetInteger => slave.set_integer(a[0] as u32, a[1] as u32 as i32),
+            Call::SetBoolean => slave.set_boolean(a[0] as u32, a[1] != 0),
+            Call::SetString => slave.set_string(a[0] as u32, &String::from_utf8_lossy(&payload.read_bytes(0, at(1)))),
+            Call::GetState | Call::FreeState => {
                 let mut handle = at(0);
                 let answer =
-                    if op == Op::GetState { slave.get_state(&mut handle) } else { slave.free_state(&mut handle) };
+                    if call == Call::GetState { slave.get_state(&mut handle) } else { slave.free_state(&mut handle) };
                 result = handle as u64;
                 answer
             }
-            Op::SetState => slave.set_state(at(0)),
-            Op::Serialize => {
+            Call::SetState => slave.set_state(at(0)),
+            Call::Serialize => {
                 let answer = slave.serialize(at(0), &mut self.bytes);
                 result = self.bytes.len() as u64;
                 answer
             }
-            Op::Deserialize => {
+            Call::Deserialize => {
                 let mut handle = at(0);
                 let answer = slave.deserialize(&payload.read_bytes(0, at(1)), &mut handle);
                 result = handle as u64;
                 answer
             }
-            Op::Load | Op::Instantiate | Op::Grow | Op::Fetch | Op::Flush | Op::Quit => return None,
+            Call::Instantiate => return None,
         };
         Some((answer, result))
     }

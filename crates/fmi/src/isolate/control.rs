@@ -1,10 +1,9 @@
 //! The part of the shared memory that stays where it is: request, reply, and the log.
 
 use crate::log::{KEPT, LogTarget, Message};
-use crate::platform::memory::Mapping;
+use crate::platform::memory::{Mapping, Shared};
 use crate::status::Status;
 use std::io;
-use std::os::fd::AsFd;
 use std::sync::atomic::{AtomicU32, AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -81,7 +80,7 @@ pub struct Control(Arc<Mapping>);
 
 impl Control {
     /// Maps it.
-    pub fn new(file: impl AsFd) -> io::Result<Self> {
+    pub fn new(file: &Shared) -> io::Result<Self> {
         Ok(Self(Arc::new(Mapping::new(file, 0, CONTROL)?)))
     }
 

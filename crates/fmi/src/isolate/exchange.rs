@@ -6,11 +6,10 @@ use super::gate::Gate;
 use super::payload::{FIRST_DATA, LISTS, Payload};
 use super::process::Process;
 use super::settings::Isolation;
-use crate::platform::memory::{create, grow};
+use crate::platform::memory::Shared;
 use crate::slave::{Answer, Call};
 use crate::status::Status;
 use std::io;
-use std::os::fd::OwnedFd;
 use std::sync::atomic::Ordering::Relaxed;
 use std::time::{Duration, Instant};
 
@@ -41,7 +40,7 @@ pub enum Fresh {
 pub struct Exchange {
     pub name: String,
     pub isolation: Isolation,
-    memory: OwnedFd,
+    memory: Shared,
     pub control: Control,
     gate: Gate,
     pub payload: Payload,
@@ -72,11 +71,11 @@ pub const POSTPONED: Answer = Answer { status: Status::Ok as i32, time: Duration
 impl Exchange {
     /// Starts the process.
     pub fn begin(name: &str, isolation: Isolation) -> io::Result<Self> {
-        let memory = create(CONTROL + Payload::length(0, FIRST_DATA))?;
+        let memory = Shared::create(CONTROL + Payload::length(0, FIRST_DATA))?;
         let control = Control::new(&memory)?;
         control.sign();
         let payload = Payload::new(&memory, CONTROL, 0, FIRST_DATA)?;
-        let process = Process::start(&isolation, name, memory.try_clone()?)?;
+        let process = Process::start(&isolation, name, &memory)?;
         Ok(Self {
             name: name.to_string(),
             isolation,
@@ -113,7 +112,7 @@ impl Exchange {
         self.filled = 0;
         let mine = self.gate.mine();
         mine.posted.store(count as u32, Relaxed);
-        mine.code.store(op as u32, Relaxed);
+        mine.code.store(op.code(), Relaxed);
         mine.numbers.iter().zip(numbers).for_each(|(place, number)| place.store(*number, Relaxed));
         self.gate.signal(n);
         let come = self.gate.wait(n, Some(LOOKS[0])) || self.wait_long(n);
@@ -146,7 +145,7 @@ impl Exchange {
         self.posted[i] = Some(op);
         self.fresh = Fresh::Nothing;
         let place = &self.control.header().posted[i];
-        place.code.store(op as u32, Relaxed);
+        place.code.store(op.code(), Relaxed);
         place.numbers.iter().zip(numbers).for_each(|(place, number)| place.store(*number, Relaxed));
         self.filled += values;
         POSTPONED
@@ -230,7 +229,7 @@ impl Exchange {
         let more = |wanted: usize, has: usize| if wanted > has { wanted.next_power_of_two().max(2) } else { has };
         let (items, bytes) = (more(items, has_items), more(bytes, has_bytes));
         self.lists.iter_mut().for_each(|list| list.items.clear());
-        let grown = grow(&self.memory, CONTROL + Payload::length(items, bytes));
+        let grown = self.memory.grow(CONTROL + Payload::length(items, bytes));
         match grown.and_then(|()| Payload::new(&self.memory, CONTROL, items, bytes)) {
             Ok(payload) => self.payload = payload,
             Err(error) => {

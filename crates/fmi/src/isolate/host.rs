@@ -5,8 +5,8 @@ use super::call::Op;
 use super::control::{CONTROL, Control, POSTED, PROGRESS, progress};
 use super::gate::Gate;
 use super::payload::{FIRST_DATA, Payload};
-use crate::platform::memory::is_ours;
-use crate::platform::watch;
+use crate::platform::memory::Shared;
+use crate::platform::process::end_with_starter;
 use crate::slave::Answer;
 use crate::status::Status;
 use crate::version::Version;
@@ -20,33 +20,19 @@ use std::time::Duration;
 /// The program was not started as a host.
 pub fn host(version: &'static Version) -> Result<(), String> {
     let no_host = "this command is not for people: `ttb run --isolate` starts it to run an FMU";
-    if !is_ours(std::io::stdin()) {
-        return Err(no_host.into());
-    }
     let fault = |e: std::io::Error| format!("isolated FMU: {e}");
     // The FMU gets an empty standard input.
-    let memory = watch::take_stdin().map_err(fault)?;
+    let Some(memory) = Shared::from_stdin().map_err(fault)? else { return Err(no_host.into()) };
     let control = Control::new(&memory).map_err(fault)?;
     if !control.is_signed() {
         return Err(no_host.into());
     }
-    end_with_master().map_err(fault)?;
+    end_with_starter().map_err(fault)?;
     let payload = Payload::new(&memory, CONTROL, 0, FIRST_DATA).map_err(fault)?;
     let gate = Gate::new(control.clone(), false);
     let answers = Answers::new(version, memory, control.clone(), payload);
     Host { control, gate, answers }.serve();
     Ok(())
-}
-
-/// Ends this process with the master: the last reader of our output is gone then. Takes along what the FMU has started.
-/// Works also while the FMU hangs.
-fn end_with_master() -> std::io::Result<()> {
-    let output = watch::copy_of_stderr()?;
-    let watch = move || {
-        watch::reader_is_gone(&output);
-        watch::end_own_group();
-    };
-    std::thread::Builder::new().name("watch".into()).spawn(watch).map(drop)
 }
 
 struct Host {

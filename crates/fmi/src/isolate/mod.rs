@@ -9,7 +9,7 @@
 //!
 //! `payload` and `control` are the shared memory, `gate` is the handshake, `call` the requests; `exchange`,
 //! `verbs` and `remote` are the master's end, `answers` and `host` the other one; `process` starts and ends it,
-//! `output` passes on what it prints.
+//! [`crate::output`] passes on what it prints.
 //!
 //! A call writes its arguments into the shared memory, counts the request's word up and waits for the reply's word; the
 //! FMU reads and writes values in the shared memory itself. Waiting means spinning for up to 20 µs, then sleeping on a
@@ -32,8 +32,6 @@ mod gate;
 mod host;
 #[cfg(not(target_os = "linux"))]
 mod nowhere;
-#[cfg(target_os = "linux")]
-mod output;
 #[cfg(target_os = "linux")]
 mod payload;
 #[cfg(target_os = "linux")]

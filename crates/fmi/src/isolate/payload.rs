@@ -1,8 +1,7 @@
 //! The part of the shared memory that grows with what a call carries: a few lists of value references, then values.
 
-use crate::platform::memory::Mapping;
+use crate::platform::memory::{Mapping, Shared};
 use std::io;
-use std::os::fd::AsFd;
 
 /// Bytes of data there is room for at the beginning.
 pub const FIRST_DATA: usize = 1 << 16;
@@ -23,7 +22,7 @@ impl Payload {
     }
 
     /// Room for `list_items` references in a list, an even number, and for `data` bytes.
-    pub fn new(file: impl AsFd, offset: usize, list_items: usize, data: usize) -> io::Result<Self> {
+    pub fn new(file: &Shared, offset: usize, list_items: usize, data: usize) -> io::Result<Self> {
         Ok(Self { mapping: Mapping::new(file, offset, Self::length(list_items, data))?, list_items, data })
     }
 

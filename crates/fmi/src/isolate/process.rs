@@ -1,36 +1,35 @@
 //! The process of an isolated FMU: started, watched, ended with all it has started itself.
 
-use super::output::Output;
 use super::settings::Isolation;
-use crate::platform;
+use crate::output::Output;
+use crate::platform::memory::Shared;
+use crate::platform::process::{Group, how_it_ended};
 use std::io;
-use std::os::fd::OwnedFd;
-use std::process::{Child, Command, ExitStatus, Stdio};
+use std::process::{Command, ExitStatus};
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 /// A host process. Dropping it ends it.
 pub struct Process {
-    child: Child,
+    group: Group,
     output: Output,
-    ended: Option<ExitStatus>,
 }
 
 impl Process {
-    /// Starts the host. Its standard input is the shared memory; what it prints goes through a pipe, whose closing tells it
-    /// that the master is gone. A process group of its own keeps Ctrl-C from it: the master ends first the step, then
-    /// the FMU.
-    pub fn start(isolation: &Isolation, name: &str, memory: OwnedFd) -> io::Result<Self> {
-        let (output, writer) = Output::new(name, isolation.listener.clone())?;
+    /// Starts the host. Its standard input is the shared memory; what it prints goes through a pipe. A process group of its own
+    /// keeps Ctrl-C from it: the master ends first the step, then the FMU.
+    pub fn start(isolation: &Isolation, name: &str, memory: &Shared) -> io::Result<Self> {
+        let (name, listener) = (name.to_string(), Arc::clone(&isolation.listener));
+        let (output, writer) = Output::new(move |line| listener(&name, line))?;
         let mut command = Command::new(&isolation.program);
         command.args(&isolation.arguments);
-        platform::in_own_group(&mut command);
-        command.stdin(Stdio::from(memory)).stdout(writer.try_clone()?).stderr(writer);
-        Ok(Self { child: command.spawn()?, output, ended: None })
+        command.stdin(memory.to_stdin()?).stdout(writer.try_clone()?).stderr(writer);
+        Ok(Self { group: Group::start(&mut command)?, output })
     }
 
     /// Whether it has ended by itself. It stays a zombie until [`Process::finish`], so that its number stays taken.
     pub fn has_ended(&self) -> bool {
-        self.ended.is_some() || platform::process::has_ended(&self.child)
+        self.group.has_ended()
     }
 
     /// Waits for its end.
@@ -46,18 +45,16 @@ impl Process {
         true
     }
 
-    /// Ends it and what it has started, unless it has ended, and collects it; the rest of its output is read.
+    /// Ends it, unless it has ended, and what it has started, and collects it; the rest of its output is read.
     pub fn finish(&mut self) -> Option<ExitStatus> {
-        if self.ended.is_none() {
-            self.ended = platform::process::end(&mut self.child);
-            self.output.finish();
-        }
-        self.ended
+        let ended = self.group.end();
+        self.output.finish();
+        ended
     }
 
     /// How it came to its end, in words that follow "its process", and what it printed last.
     pub fn how_it_ended(&mut self) -> String {
-        let how = self.finish().map_or_else(|| "is lost".to_string(), platform::process::how_it_ended);
+        let how = self.finish().map_or_else(|| "is lost".to_string(), how_it_ended);
         how + &self.output.last_lines()
     }
 }

@@ -29,7 +29,7 @@ pub(crate) fn start(
         what: format!("its process cannot be started ({}): {e}", isolation.program.display()),
     })?;
     let gone = |remote: &Exchange, call: &str| {
-        let how = remote.end.clone()?;
+        let how = remote.ended()?;
         Some(FmuError::Gone { instance: instance(), call: call.into(), how, messages: sink.take() })
     };
     let identifier = &wanted.description.co_simulation.model_identifier;
@@ -43,7 +43,7 @@ pub(crate) fn start(
     }
     remote.functions = remote.result();
     let texts = [wanted.name.as_bytes(), wanted.description.guid.as_bytes()];
-    let made = remote.send(Op::Instantiate, &texts, u64::from(wanted.logging));
+    let made = remote.send(Op::Call(Call::Instantiate), &texts, u64::from(wanted.logging));
     remote.collect(sink);
     if made.status != Status::Ok as i32 {
         let call = (version.symbol)(Call::Instantiate);

@@ -1,10 +1,47 @@
 //! Shared memory: a file without name, mapped by both processes. It goes with the last of them, however they end.
 
 use rustix::fs::{MemfdFlags, SealFlags, fcntl_add_seals, fcntl_get_seals, ftruncate, memfd_create};
+use rustix::io::fcntl_dupfd_cloexec;
 use rustix::mm::{MapFlags, ProtFlags, mmap, munmap};
+use std::fs::File;
 use std::io;
-use std::os::fd::{AsFd, OwnedFd};
+use std::os::fd::OwnedFd;
+use std::process::Stdio;
 use std::ptr::NonNull;
+
+/// A file in memory that may grow and not shrink, so that touching a mapping of it never fails.
+pub struct Shared(OwnedFd);
+
+impl Shared {
+    /// A new one.
+    pub fn create(length: usize) -> io::Result<Self> {
+        let file = memfd_create("ttb-fmu", MemfdFlags::CLOEXEC | MemfdFlags::ALLOW_SEALING)?;
+        ftruncate(&file, length as u64)?;
+        fcntl_add_seals(&file, SealFlags::SHRINK)?;
+        Ok(Self(file))
+    }
+
+    /// The one that another process gave this one as standard input, which is replaced by an empty one; nothing if it is
+    /// none of ours.
+    pub fn from_stdin() -> io::Result<Option<Self>> {
+        if !fcntl_get_seals(io::stdin()).is_ok_and(|seals| seals.contains(SealFlags::SHRINK)) {
+            return Ok(None);
+        }
+        let taken = fcntl_dupfd_cloexec(io::stdin(), 3)?;
+        rustix::stdio::dup2_stdin(File::open("/dev/null")?)?;
+        Ok(Some(Self(taken)))
+    }
+
+    /// As standard input of another process.
+    pub fn to_stdin(&self) -> io::Result<Stdio> {
+        Ok(Stdio::from(self.0.try_clone()?))
+    }
+
+    /// Makes it longer.
+    pub fn grow(&self, length: usize) -> io::Result<()> {
+        Ok(ftruncate(&self.0, length as u64)?)
+    }
+}
 
 /// A part of the file in this process's memory.
 pub struct Mapping {
@@ -19,10 +56,10 @@ unsafe impl Sync for Mapping {}
 
 impl Mapping {
     /// `length` bytes from `offset`, both multiples of 64 KiB.
-    pub fn new(file: impl AsFd, offset: usize, length: usize) -> io::Result<Self> {
+    pub fn new(file: &Shared, offset: usize, length: usize) -> io::Result<Self> {
         let (access, flags) = (ProtFlags::READ | ProtFlags::WRITE, MapFlags::SHARED);
         // SAFETY: the kernel chooses the place; the file cannot shrink below the mapping (it is sealed).
-        let base = unsafe { mmap(std::ptr::null_mut(), length, access, flags, file, offset as u64) }?;
+        let base = unsafe { mmap(std::ptr::null_mut(), length, access, flags, &file.0, offset as u64) }?;
         let base = NonNull::new(base.cast()).ok_or(io::ErrorKind::OutOfMemory)?;
         Ok(Self { base, length })
     }
@@ -40,22 +77,4 @@ impl Drop for Mapping {
         // SAFETY: our mapping; nobody holds a reference into it longer than this.
         let _ = unsafe { munmap(self.base.as_ptr().cast(), self.length) };
     }
-}
-
-/// A file in memory that may grow and not shrink, so that touching a mapping of it never fails.
-pub fn create(length: usize) -> io::Result<OwnedFd> {
-    let file = memfd_create("ttb-fmu", MemfdFlags::CLOEXEC | MemfdFlags::ALLOW_SEALING)?;
-    ftruncate(&file, length as u64)?;
-    fcntl_add_seals(&file, SealFlags::SHRINK)?;
-    Ok(file)
-}
-
-/// Whether a file is one of those.
-pub fn is_ours(file: impl AsFd) -> bool {
-    fcntl_get_seals(file).is_ok_and(|seals| seals.contains(SealFlags::SHRINK))
-}
-
-/// Makes the file longer.
-pub fn grow(file: impl AsFd, length: usize) -> io::Result<()> {
-    Ok(ftruncate(file, length as u64)?)
 }

@@ -36,7 +36,7 @@ pub use import::*;
 #[cfg(feature = "import")]
 mod import {
     use libloading::os::unix::{RTLD_GLOBAL, RTLD_LOCAL, RTLD_NOW};
-    use std::ffi::{c_int, c_void};
+    use std::ffi::c_int;
     use std::path::Path;
 
     /// A loaded library; dropping it unloads it.
@@ -54,8 +54,7 @@ mod import {
     }
 
     unsafe extern "C" {
-        fn fflush(stream: *mut c_void) -> c_int;
-        fn _exit(code: c_int) -> !;
+        fn ttb_exit_now(code: c_int) -> !;
         fn signal(number: c_int, handler: usize) -> usize;
     }
 
@@ -78,11 +77,14 @@ mod import {
 
     /// Ends the process without exit handlers and destructors of libraries; what C code has printed is written first.
     pub(crate) fn exit_now(code: u8) -> ! {
-        // SAFETY: a null stream asks for all of C's; `_exit` takes any code and never returns.
-        unsafe {
-            fflush(std::ptr::null_mut());
-            _exit(c_int::from(code))
-        }
+        // SAFETY: takes any code and never returns.
+        unsafe { ttb_exit_now(c_int::from(code)) }
+    }
+
+    /// A descriptor that nothing needs: who finds it closed knows that foreign code closes what is not its own. −1 if there is
+    /// none to be had.
+    pub(crate) fn sentinel() -> c_int {
+        std::fs::File::open("/dev/null").map_or(-1, std::os::fd::IntoRawFd::into_raw_fd)
     }
 
     /// Makes this process deaf to what users and batch systems end programs with: SIGHUP, SIGINT, SIGTERM.

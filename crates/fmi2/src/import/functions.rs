@@ -4,6 +4,7 @@ use crate::types::*;
 use std::ffi::{CStr, c_char};
 use std::mem::ManuallyDrop;
 use std::path::{Path, PathBuf};
+use ttb_fmi::guard;
 use ttb_fmi::library::{self, LibraryError};
 use ttb_fmi::platform::Library;
 use ttb_fmi::slave::Call;
@@ -75,6 +76,7 @@ optional {
     deserialize_state: fn(fmi2Component, *const fmi2Byte, usize, *mut fmi2FMUstate) -> fmi2Status = "fmi2DeSerializeFMUstate";
     directional_derivative: fn(fmi2Component, Refs, usize, Refs, usize, *const fmi2Real, *mut fmi2Real) -> fmi2Status
         = "fmi2GetDirectionalDerivative";
+    boolean_status: fn(fmi2Component, fmi2StatusKind, *mut fmi2Boolean) -> fmi2Status = "fmi2GetBooleanStatus";
 }
 }
 
@@ -100,7 +102,7 @@ impl Functions {
     pub fn load(folder: &Path, model_identifier: &str) -> Result<Self, LibraryError> {
         let functions = Self::bind(library::open(&library_path(folder, model_identifier)?)?)?;
         // SAFETY: takes nothing, and answers with a zero-terminated constant.
-        let version = unsafe { (functions.get_version)() };
+        let version = guard::call(|| unsafe { (functions.get_version)() }).unwrap_or(std::ptr::null());
         // SAFETY: as above; the null check is for FMUs that do not.
         let found = if version.is_null() { "".into() } else { unsafe { CStr::from_ptr(version) }.to_string_lossy() };
         let found = found.to_string();

@@ -1,13 +1,14 @@
 //! An instance in this process: every verb is the call of a C function.
 
 use super::functions::Functions;
-use super::logger::{Environment, LOGGER};
+use crate::logger::{LOGGER, Listener, Logged, calling, environment};
 use crate::types::*;
 use std::ffi::{CStr, CString, c_void};
 use std::path::Path;
 use std::ptr;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
+use ttb_fmi::guard;
 use ttb_fmi::log::LogTarget;
 use ttb_fmi::slave::{Answer, Call, Handle, Slave};
 
@@ -15,7 +16,24 @@ use ttb_fmi::slave::{Answer, Call, Handle, Slave};
 pub struct Local {
     component: fmi2Component,
     functions: Arc<Functions>,
+    /// Also says whose call it is that is being made.
+    environment: fmi2ComponentEnvironment,
+    steps: u32,
 }
+
+/// Messages of an instance on their way to its log; what is odd about them `ttb check` tells.
+struct Heard(Arc<dyn LogTarget>);
+
+impl Listener for Heard {
+    fn hear(&self, logged: &Logged) {
+        self.0.write(logged.status, logged.category, logged.text);
+    }
+}
+
+/// Steps after which is looked at what the FMU has changed in the process: that takes some µs.
+const TIDY: u32 = 64;
+/// More than this no FMU hands out at once; what asks for more has lost its mind.
+const LARGEST: usize = 1 << 32;
 
 // SAFETY: an instance may be used from any thread, by one at a time (FMI 2.0, section 2.1.1): `&mut self` sees to the
 // latter.
@@ -29,8 +47,8 @@ unsafe extern "C" {
 impl Local {
     /// `fmi2Instantiate`, and how long it took; nothing if the FMU gives no instance.
     ///
-    /// Callbacks and their environment, some hundred bytes, are never freed: a thread of the FMU may log at any time, also
-    /// after `fmi2FreeInstance`, and the more so after fmi2Fatal.
+    /// The callbacks, some ten bytes, are never freed: a thread of the FMU may log at any time, also after `fmi2FreeInstance`,
+    /// and the more so after fmi2Fatal.
     pub fn new(
         name: &str,
         guid: &str,
@@ -39,20 +57,21 @@ impl Local {
         log: Arc<dyn LogTarget>,
         logging: bool,
     ) -> (Option<Self>, Duration) {
-        let environment: &'static Environment = Box::leak(Box::new(Environment::new(log)));
+        let environment = environment(Arc::new(Heard(log)));
         let callbacks: &'static fmi2CallbackFunctions = Box::leak(Box::new(fmi2CallbackFunctions {
             logger: Some(LOGGER),
             allocate_memory: Some(calloc),
             free_memory: Some(free),
             step_finished: None,
-            component_environment: ptr::from_ref(environment).cast_mut().cast(),
+            component_environment: environment,
         }));
         let name = CString::new(name).unwrap_or_default();
         let guid = CString::new(guid).unwrap_or_default();
         let resources = CString::new(ttb_fmi::file_uri(&folder.join("resources"))).unwrap_or_default();
         let begin = Instant::now();
+        let instance = calling(environment);
         // SAFETY: the strings are valid; the callbacks and what they lead to are so for ever.
-        let component = unsafe {
+        let component = guard::call(|| unsafe {
             (functions.instantiate)(
                 name.as_ptr(),
                 FMI2_CO_SIMULATION,
@@ -62,18 +81,37 @@ impl Local {
                 FMI2_FALSE,
                 fmi2Boolean::from(logging),
             )
-        };
+        });
+        drop(instance);
         let time = begin.elapsed();
-        ((!component.is_null()).then_some(Self { component, functions }), time)
+        guard::put_back();
+        let component = component.filter(|component| !component.is_null());
+        (component.map(|component| Self { component, functions, environment, steps: 0 }), time)
     }
 
     /// Makes a call and takes its time.
     fn call(&self, work: impl FnOnce(&Functions, fmi2Component) -> fmi2Status) -> Answer {
+        if guard::has_ended() {
+            return GONE;
+        }
+        let instance = calling(self.environment);
         let begin = Instant::now();
-        let status = work(&self.functions, self.component);
-        Answer { status, time: begin.elapsed(), warnings: 0 }
+        let status = guard::call(|| work(&self.functions, self.component));
+        let time = begin.elapsed();
+        drop(instance);
+        status.map_or(GONE, |status| Answer { status, time, warnings: 0 })
+    }
+
+    /// A call that is rare, after which is looked at what it has changed in the process.
+    fn rare(&self, work: impl FnOnce(&Functions, fmi2Component) -> fmi2Status) -> Answer {
+        let answer = self.call(work);
+        guard::put_back();
+        answer
     }
 }
+
+/// What a call answers that does not come back.
+const GONE: Answer = Answer { status: Status::Fatal as fmi2Status, time: Duration::ZERO, warnings: 0 };
 
 /// An optional function of an instance's library; without it the answer is an error.
 macro_rules! function {
@@ -93,32 +131,40 @@ impl Slave for Local {
     fn setup_experiment(&mut self, start: f64, stop: Option<f64>) -> Answer {
         let (defined, stop) = (fmi2Boolean::from(stop.is_some()), stop.unwrap_or(0.0));
         // SAFETY: a live instance.
-        self.call(|f, c| unsafe { (f.setup_experiment)(c, FMI2_FALSE, 0.0, start, defined, stop) })
+        self.rare(|f, c| unsafe { (f.setup_experiment)(c, FMI2_FALSE, 0.0, start, defined, stop) })
     }
     fn enter_initialization(&mut self) -> Answer {
         // SAFETY: a live instance.
-        self.call(|f, c| unsafe { (f.enter_initialization)(c) })
+        self.rare(|f, c| unsafe { (f.enter_initialization)(c) })
     }
     fn exit_initialization(&mut self) -> Answer {
         // SAFETY: a live instance.
-        self.call(|f, c| unsafe { (f.exit_initialization)(c) })
+        self.rare(|f, c| unsafe { (f.exit_initialization)(c) })
     }
     fn do_step(&mut self, t: f64, h: f64, may_restore: bool) -> Answer {
         let no_restore = fmi2Boolean::from(!may_restore);
+        self.steps = self.steps.wrapping_add(1);
         // SAFETY: a live instance.
-        self.call(|f, c| unsafe { (f.do_step)(c, t, h, no_restore) })
+        let answer = self.call(|f, c| unsafe { (f.do_step)(c, t, h, no_restore) });
+        if self.steps.is_multiple_of(TIDY) {
+            guard::put_back();
+        }
+        answer
     }
     fn terminate(&mut self) -> Answer {
         // SAFETY: a live instance.
-        self.call(|f, c| unsafe { (f.terminate)(c) })
+        self.rare(|f, c| unsafe { (f.terminate)(c) })
     }
     fn reset(&mut self) -> Answer {
         // SAFETY: a live instance.
-        self.call(|f, c| unsafe { (f.reset)(c) })
+        self.rare(|f, c| unsafe { (f.reset)(c) })
     }
     fn free_instance(&mut self) {
-        // SAFETY: a live instance, by contract never used again; library and callbacks are still there.
-        unsafe { (self.functions.free_instance)(self.component) };
+        self.rare(|f, c| {
+            // SAFETY: a live instance, by contract never used again; library and callbacks are still there.
+            unsafe { (f.free_instance)(c) };
+            Status::Ok as fmi2Status
+        });
     }
 
     fn get_real(&mut self, references: &[u32], values: &mut [f64]) -> Answer {
@@ -220,6 +266,9 @@ impl Slave for Local {
             return sized;
         }
         bytes.clear();
+        if size > LARGEST || bytes.try_reserve_exact(size).is_err() {
+            return Answer::NOTHING;
+        }
         bytes.resize(size, 0);
         let out = bytes.as_mut_ptr().cast();
         // SAFETY: a live instance, a state of it, and room for what it says it needs.
@@ -233,5 +282,9 @@ impl Slave for Local {
         let done = self.call(|_, c| unsafe { deserialize(c, bytes.as_ptr().cast(), bytes.len(), place) });
         *handle = state as Handle;
         done
+    }
+
+    fn ended(&self) -> Option<String> {
+        guard::ended()
     }
 }

@@ -9,7 +9,6 @@
 
 pub(crate) mod functions;
 mod local;
-mod logger;
 mod reader;
 mod version;
 

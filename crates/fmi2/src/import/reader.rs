@@ -39,8 +39,13 @@ impl Reading {
                 (d.start_time, d.stop_time) = (e.number("startTime"), e.number("stopTime"));
                 d.step_size = e.number("stepSize");
             }
-            (_, ["UnitDefinitions"], "Unit") | (_, ["TypeDefinitions"], "SimpleType") => {
+            (_, ["UnitDefinitions"], "Unit") => {
                 self.current = e.attribute("name").unwrap_or_default();
+                self.description.defined_units.insert(self.current.clone());
+            }
+            (_, ["TypeDefinitions"], "SimpleType") => self.current = e.attribute("name").unwrap_or_default(),
+            (_, ["LogCategories"], "Category") => {
+                self.description.log_categories.extend(e.attribute("name"));
             }
             (_, ["UnitDefinitions", "Unit"], "BaseUnit") => {
                 self.description.units.insert(self.current.clone(), unit(e));
@@ -124,7 +129,9 @@ impl Reading {
             "Enumeration" => VariableType::Enumeration,
             _ => return, // annotations
         };
-        (variable.start, variable.unit) = (e.attribute("start"), e.attribute("unit"));
+        variable.start = e.attribute("start");
+        // An empty one says nothing.
+        variable.unit = e.attribute("unit").filter(|unit| !unit.trim().is_empty());
         self.declared.extend(e.attribute("declaredType").map(|declared| (index, declared)));
     }
 

@@ -1,10 +1,12 @@
 //! A probed instance: each method is one call, its answer the status as it came.
 
 use super::Probe;
-use super::log::{LOGGER, Log, LogEntry};
+use super::log::{Log, LogEntry};
+use crate::logger::{LOGGER, calling, environment};
 use crate::types::*;
 use std::ffi::{CString, c_void};
 use std::ptr;
+use std::sync::Arc;
 
 /// What an instance is made with.
 #[derive(Clone, Debug)]
@@ -23,8 +25,9 @@ pub struct Instantiation<'a> {
 pub struct Probed<'a> {
     probe: &'a Probe,
     component: fmi2Component,
-    /// Never freed: a faulty FMU may use them after its end.
-    log: &'static Log,
+    log: Arc<Log>,
+    /// Says whose call it is that is being made.
+    environment: fmi2ComponentEnvironment,
 }
 
 /// A saved state, as the FMU names it.
@@ -39,6 +42,8 @@ unsafe extern "C" {
 /// Bytes before which a serializing FMU must stop.
 const GUARD: usize = 256;
 const GUARD_BYTE: u8 = 0xA5;
+/// More than this no FMU can mean.
+const LARGEST: usize = 1 << 32;
 
 impl Probe {
     /// `fmi2Instantiate`; nothing and what was logged if it gave NULL.
@@ -46,18 +51,21 @@ impl Probe {
     /// # Errors
     /// No instance.
     pub fn instantiate(&self, wanted: &Instantiation) -> Result<Probed<'_>, Vec<LogEntry>> {
-        (self.announce)(&format!("fmi2Instantiate with the resources {}", wanted.resources));
-        let log: &'static Log = Box::leak(Log::new());
+        (self.announce)(&format!("fmi2Instantiate{} with the resources {}", self.situation(), wanted.resources));
+        let log = Arc::new(Log::default());
+        let listener = Arc::clone(&log);
+        let environment = environment(listener);
         let callbacks: &'static _ = Box::leak(Box::new(fmi2CallbackFunctions {
             logger: Some(LOGGER),
             allocate_memory: Some(calloc),
             free_memory: Some(free),
             step_finished: None,
-            component_environment: ptr::from_ref(log).cast_mut().cast(),
+            component_environment: environment,
         }));
         let text = |text: &str| CString::new(text).unwrap_or_default();
         let (name, guid, resources) = (text(wanted.name), text(wanted.guid), text(wanted.resources));
-        // SAFETY: all pointers are valid; the callbacks and the log are so for ever.
+        let called = calling(environment);
+        // SAFETY: all pointers are valid; the callbacks are so for ever, since a faulty FMU may use them after its end.
         let component = unsafe {
             (self.functions.instantiate)(
                 name.as_ptr(),
@@ -69,7 +77,12 @@ impl Probe {
                 fmi2Boolean::from(wanted.logging),
             )
         };
-        if component.is_null() { Err(log.take()) } else { Ok(Probed { probe: self, component, log }) }
+        drop(called);
+        if component.is_null() {
+            return Err(log.take());
+        }
+        self.made.set(self.made.get() + 1);
+        Ok(Probed { probe: self, component, log, environment })
     }
 }
 
@@ -80,6 +93,7 @@ macro_rules! calls {
             $($(#[$doc])*
             pub fn $name(&mut self $(, $argument: $kind)*) -> Status {
                 (self.probe.announce)($symbol);
+                let _called = calling(self.environment);
                 // SAFETY: a live instance; slices are passed with their length, which a master never gets wrong either.
                 Status::from_c(unsafe { (self.probe.functions.$field)(self.component, $($given),*) })
             })*
@@ -111,12 +125,14 @@ impl Probed<'_> {
     /// `fmi2DoStep`; a state from before t may still come back.
     pub fn step(&mut self, t: f64, h: f64) -> Status {
         (self.probe.announce)(&format!("fmi2DoStep from t = {t} s by {h} s"));
+        let _called = calling(self.environment);
         // SAFETY: a live instance.
         Status::from_c(unsafe { (self.probe.functions.do_step)(self.component, t, h, FMI2_FALSE) })
     }
 
     /// First derivatives of inputs for the coming step.
     pub fn set_rates(&mut self, references: &[u32], rates: &[f64]) -> Status {
+        let _called = calling(self.environment);
         let call = "fmi2SetRealInputDerivatives";
         let Some(set) = self.announced(call, self.probe.functions.set_input_derivatives) else { return Status::Error };
         let orders = vec![1; references.len()];
@@ -127,6 +143,7 @@ impl Probed<'_> {
 
     /// Derivatives of `unknown` along a change of one known variable.
     pub fn derivatives(&mut self, unknown: &[u32], known: u32, out: &mut [f64]) -> Status {
+        let _called = calling(self.environment);
         let call = "fmi2GetDirectionalDerivative";
         let Some(get) = self.announced(call, self.probe.functions.directional_derivative) else { return Status::Error };
         let n = unknown.len().min(out.len());
@@ -136,6 +153,7 @@ impl Probed<'_> {
 
     /// Saves, into `over` if there is one.
     pub fn get_state(&mut self, over: Option<State>) -> (Status, State) {
+        let _called = calling(self.environment);
         let mut state = over.map_or(ptr::null_mut(), |state| state.0);
         let Some(get) = self.announced("fmi2GetFMUstate", self.probe.functions.get_state) else {
             return (Status::Error, State(state));
@@ -147,6 +165,7 @@ impl Probed<'_> {
 
     /// Restores.
     pub fn set_state(&mut self, state: &State) -> Status {
+        let _called = calling(self.environment);
         let Some(set) = self.announced("fmi2SetFMUstate", self.probe.functions.set_state) else { return Status::Error };
         // SAFETY: a live instance and a state of it.
         Status::from_c(unsafe { set(self.component, state.0) })
@@ -154,6 +173,7 @@ impl Probed<'_> {
 
     /// Frees a state; also whether the handle came back as NULL, which the standard promises.
     pub fn free_state(&mut self, mut state: State) -> (Status, bool) {
+        let _called = calling(self.environment);
         let Some(free) = self.announced("fmi2FreeFMUstate", self.probe.functions.free_state) else {
             return (Status::Error, true);
         };
@@ -167,6 +187,7 @@ impl Probed<'_> {
     /// # Errors
     /// A refusal, or bytes written behind the end, in words.
     pub fn serialize(&mut self, state: &State) -> Result<Vec<u8>, String> {
+        let _called = calling(self.environment);
         let f = &self.probe.functions;
         let (Some(size_of), Some(serialize)) = (f.serialized_size, f.serialize_state) else {
             return Err("fmi2SerializeFMUstate is missing".into());
@@ -178,7 +199,11 @@ impl Probed<'_> {
         if status > Status::Warning {
             return Err(format!("fmi2SerializedFMUstateSize answered fmi2{status}"));
         }
-        let mut bytes = vec![0_u8; size];
+        let mut bytes = Vec::new();
+        if size > LARGEST || bytes.try_reserve_exact(size + GUARD).is_err() {
+            return Err(format!("fmi2SerializedFMUstateSize asks for {size} bytes"));
+        }
+        bytes.resize(size, 0_u8);
         bytes.resize(size + GUARD, GUARD_BYTE);
         (self.probe.announce)("fmi2SerializeFMUstate");
         // SAFETY: a live instance, a state of it, room for what it says it needs, and some more.
@@ -197,6 +222,7 @@ impl Probed<'_> {
 
     /// A state from bytes.
     pub fn deserialize(&mut self, bytes: &[u8]) -> (Status, State) {
+        let _called = calling(self.environment);
         let mut state = ptr::null_mut();
         let call = "fmi2DeSerializeFMUstate";
         let Some(deserialize) = self.announced(call, self.probe.functions.deserialize_state) else {
@@ -207,6 +233,18 @@ impl Probed<'_> {
         (Status::from_c(status), State(state))
     }
 
+    /// Whether the FMU ends the simulation of its own accord, as it may after a step that was discarded.
+    pub fn wants_end(&mut self) -> bool {
+        let _called = calling(self.environment);
+        let Some(get) = self.announced("fmi2GetBooleanStatus", self.probe.functions.boolean_status) else {
+            return false;
+        };
+        let mut ends = FMI2_FALSE;
+        // SAFETY: a live instance and room for one value.
+        let status = Status::from_c(unsafe { get(self.component, status_kind::TERMINATED, &raw mut ends) });
+        status <= Status::Warning && ends != FMI2_FALSE
+    }
+
     /// Takes what was logged.
     pub fn take_log(&mut self) -> Vec<LogEntry> {
         self.log.take()
@@ -215,6 +253,8 @@ impl Probed<'_> {
     /// `fmi2FreeInstance`, whatever went before.
     pub fn free(self) {
         (self.probe.announce)("fmi2FreeInstance");
+        let _called = calling(self.environment);
+        self.probe.freed.set(self.probe.freed.get() + 1);
         // SAFETY: a live instance, never used again.
         unsafe { (self.probe.functions.free_instance)(self.component) };
     }

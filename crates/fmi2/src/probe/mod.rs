@@ -9,11 +9,13 @@ mod instance;
 mod log;
 mod symbols;
 
+pub use crate::logger::ODDITIES;
 pub use instance::{Instantiation, Probed, State};
 pub use log::LogEntry;
 pub use symbols::{Symbols, symbols};
 
 use crate::import::functions::Functions;
+use std::cell::Cell;
 use std::path::Path;
 use ttb_fmi::description::ModelDescription;
 use ttb_fmi::library::LibraryError;
@@ -22,6 +24,9 @@ use ttb_fmi::library::LibraryError;
 pub struct Probe {
     functions: Functions,
     announce: Box<dyn Fn(&str)>,
+    /// Instances made and freed so far.
+    made: Cell<usize>,
+    freed: Cell<usize>,
 }
 
 impl Probe {
@@ -36,7 +41,21 @@ impl Probe {
     ) -> Result<Self, LibraryError> {
         announce("loading the library");
         let functions = Functions::load(folder, &description.co_simulation.model_identifier)?;
-        Ok(Self { functions, announce: Box::new(announce) })
+        Ok(Self { functions, announce: Box::new(announce), made: Cell::new(0), freed: Cell::new(0) })
+    }
+
+    /// What the next instance is, if it is not the first: `, a second instance in its process after the first was freed,`.
+    fn situation(&self) -> String {
+        let (made, freed) = (self.made.get(), self.freed.get());
+        let which = if made == 1 { "second".into() } else { format!("{}th", made + 1) };
+        let others = match (made, freed) {
+            (0, _) => return String::new(),
+            (1, 1) => "after the first was freed".to_string(),
+            (1, _) => "beside the first".to_string(),
+            _ if freed == made => format!("after the {made} before were freed"),
+            _ => format!("beside {}", made - freed),
+        };
+        format!(", a {which} instance in its process {others},")
     }
 
     /// Whether there are functions to get, set and free states.

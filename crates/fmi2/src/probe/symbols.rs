@@ -54,6 +54,8 @@ pub struct Symbols {
     pub required: Vec<&'static str>,
     /// Functions the standard demands all the same.
     pub demanded: Vec<&'static str>,
+    /// Libraries that are needed, lie beside it, and are not looked for there by the loader.
+    pub beside: Vec<String>,
 }
 
 /// Loads the library of an unpacked FMU and looks for all functions.
@@ -61,9 +63,9 @@ pub struct Symbols {
 /// # Errors
 /// There is no library, or it cannot be loaded.
 pub fn symbols(folder: &Path, model_identifier: &str) -> Result<Symbols, LibraryError> {
-    let library = library::open(&library_path(folder, model_identifier)?)?;
+    let (library, beside) = library::open_with(&library_path(folder, model_identifier)?)?;
     // SAFETY: the address is only looked at, never called.
     let missing = |name: &&&'static str| unsafe { library.get::<*const c_void>(**name) }.is_err();
     let all = |names: &'static [&'static str]| names.iter().filter(missing).copied().collect::<Vec<_>>();
-    Ok(Symbols { required: all(&REQUIRED), demanded: all(&DEMANDED) })
+    Ok(Symbols { required: all(&REQUIRED), demanded: all(&DEMANDED), beside })
 }

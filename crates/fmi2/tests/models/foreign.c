@@ -91,6 +91,14 @@ int fmi2DoStep(void *c, double t, double h, int no_restore) {
     if (is(s, "flood")) for (int i = 0; i < 20000; i++) printf("line %d of many\n", i);
     if (is(s, "thread")) { pthread_t thread; pthread_create(&thread, NULL, chatter, (void *)cb); pthread_detach(thread); }
     if (is(s, "parent") && fork() == 0) for (;;) pause();
+    /* Out of its group and of its descent: a child of a child that has ended. */
+    if (is(s, "daemon") && fork() == 0) { if (fork()) _exit(0); setsid(); for (int i = 0; i < 1024; i++) close(i); for (;;) pause(); }
+    if (is(s, "mark")) { fwrite("\0ttb: end of output\0\n", 1, 21, stdout); printf("after it\n"); fflush(stdout); }
+    if (is(s, "closer")) for (int i = 3; i < 1024; i++) close(i);
+    if (is(s, "stranger")) {
+        void *const strange[] = {s, (void *)1, NULL, (void *)-8};
+        for (int i = 0; i < 4; i++) cb->logger(strange[i], s->name, 0, "info", "stranger %d", i);
+    }
     if (is(s, "error")) { s->out[0] += 1e9; cb->logger(cb->environment, s->name, 3, "bad", "cannot step by %g", h); return 3; }
     if (is(s, "discard")) return 2;
     if (is(s, "pending")) return 5;
