@@ -1,10 +1,11 @@
-//! What a check works with: the FMU, and where it reports.
+//! What a check works with: the FMU, and where it reports. An FMU may close files that are not its own, and open others in
+//! their place: a file is opened anew for every finding, and looked at before a call is noted in it.
 
 use std::cell::RefCell;
-use std::fs::File;
+use std::fs::{File, OpenOptions};
 use std::io::Write;
-use std::os::unix::fs::FileExt;
-use std::path::PathBuf;
+use std::os::unix::fs::{FileExt, MetadataExt};
+use std::path::{Path, PathBuf};
 
 use ttb_fmi::description::ModelDescription;
 
@@ -17,7 +18,7 @@ pub struct Context {
     /// Its description.
     pub description: ModelDescription,
     /// Where findings go, a line each.
-    pub report: RefCell<File>,
+    pub report: PathBuf,
     /// Where the call at hand is noted.
     pub stage: PathBuf,
 }
@@ -26,18 +27,49 @@ impl Context {
     /// Notes a finding at once: the process may not live to the end.
     pub fn find(&self, finding: Finding) {
         if let Ok(line) = serde_json::to_string(&finding) {
-            let _ = writeln!(self.report.borrow_mut(), "{line}");
+            let _ = self.write(&line);
         }
+    }
+
+    /// Adds a line to the report.
+    pub fn write(&self, line: &str) -> std::io::Result<()> {
+        OpenOptions::new().append(true).create(true).open(&self.report)?.write_all(format!("{line}\n").as_bytes())
     }
 
     /// A listener that notes which call is about to be made.
     pub fn announce(&self) -> impl Fn(&str) + 'static {
-        let file = File::create(&self.stage);
+        let path = self.stage.clone();
+        let kept = RefCell::new(Kept::open(&path));
         move |stage| {
+            let mut kept = kept.borrow_mut();
+            if !kept.as_ref().is_some_and(Kept::is_there) {
+                // What has become of the descriptor is not ours to close.
+                std::mem::forget(kept.take());
+                *kept = Kept::open(&path);
+            }
             // A fixed width overwrites what was longer; a lost note is no reason to stop.
-            if let Ok(file) = &file {
+            if let Some(Kept { file, .. }) = &*kept {
                 let _ = file.write_at(format!("{stage:<200}").as_bytes(), 0);
             }
         }
+    }
+}
+
+/// An open file, and which it is.
+struct Kept {
+    file: File,
+    inode: u64,
+}
+
+impl Kept {
+    fn open(path: &Path) -> Option<Self> {
+        let file = OpenOptions::new().write(true).create(true).truncate(false).open(path).ok()?;
+        let inode = file.metadata().ok()?.ino();
+        Some(Self { file, inode })
+    }
+
+    /// Whether it is still that one.
+    fn is_there(&self) -> bool {
+        self.file.metadata().is_ok_and(|now| now.ino() == self.inode)
     }
 }

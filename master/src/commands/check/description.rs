@@ -35,7 +35,7 @@ pub fn sanity(d: &ModelDescription, xml: &[u8]) -> Vec<Finding> {
     found.extend(duplicates(d));
     found.extend(some(d, "variable", variable));
     found.extend(some(d, "unit-undefined", |v| {
-        let unit = v.unit.as_ref().filter(|unit| !d.units.contains_key(*unit))?;
+        let unit = v.unit.as_ref().filter(|unit| !d.defined_units.contains(*unit))?;
         Some(Finding::warning("unit-undefined", format!("the unit {unit} of {} is defined nowhere", v.name)))
     }));
     found
@@ -92,7 +92,8 @@ fn variable(v: &ScalarVariable) -> Option<Finding> {
     }
 }
 
-/// Names that occur twice, and value references that two inputs or parameters share.
+/// Names that occur twice, and value references that two inputs or parameters share. Variables that cannot both be set may share
+/// one: they are aliases.
 fn duplicates(d: &ModelDescription) -> Vec<Finding> {
     let mut names: HashMap<&str, usize> = HashMap::new();
     d.variables.iter().for_each(|v| *names.entry(&v.name).or_default() += 1);
@@ -116,20 +117,6 @@ fn duplicates(d: &ModelDescription) -> Vec<Finding> {
         {
             let what = format!("{other} and {} have the same value reference {}", v.name, v.value_reference);
             found.push(Finding::error("duplicate-reference", what).at("modelDescription.xml"));
-        }
-    }
-    let mut outputs: HashMap<u32, &str> = HashMap::new();
-    for v in d.with_causality("output").filter(|v| v.kind == VariableType::Real) {
-        if let Some(input) = settable.get(&v.value_reference) {
-            let what = format!("the output {} has the value reference {} of {input}", v.name, v.value_reference);
-            found.push(Finding::error("duplicate-reference", what).at("modelDescription.xml"));
-        }
-        if let Some(other) = outputs.insert(v.value_reference, &v.name)
-            && other != v.name
-        {
-            let what =
-                format!("the outputs {other} and {} have the same value reference {}", v.name, v.value_reference);
-            found.push(Finding::warning("duplicate-reference", what).at("modelDescription.xml"));
         }
     }
     found

@@ -1,30 +1,13 @@
 //! An instance driven through initialization and steps by inputs that move.
 
-use ttb_fmi::description::{ModelDescription, ScalarVariable, VariableType};
 use ttb_fmi::file_uri;
 use ttb_fmi2::probe::{Instantiation, LogEntry, Probe, Probed, State};
 use ttb_fmi2::types::Status;
 
+use super::compare::{differ, leave_out};
 use super::context::Context;
-use super::finding::Finding;
-
-/// Steps when nothing is said of them, s.
-const STEP: f64 = 1e-3;
-
-/// How an FMU is driven: its coupled variables, its time.
-pub struct Plan {
-    inputs: Vec<u32>,
-    /// Start value and amplitude of each input.
-    swing: Vec<(f64, f64)>,
-    pub outputs: Vec<u32>,
-    names: Vec<String>,
-    /// Begin, end and step in s.
-    pub start: f64,
-    pub stop: Option<f64>,
-    pub h: f64,
-    guid: String,
-    resources: String,
-}
+use super::finding::{Finding, Severity};
+use super::plan::Plan;
 
 /// A loaded FMU and the way it is driven.
 pub fn open(context: &Context) -> Result<(Probe, Plan), Finding> {
@@ -33,92 +16,46 @@ pub fn open(context: &Context) -> Result<(Probe, Plan), Finding> {
     Ok((probe, Plan::new(&context.description, file_uri(&context.folder.join("resources")))))
 }
 
-impl Plan {
-    fn new(d: &ModelDescription, resources: String) -> Self {
-        let reals = |causality| d.with_causality(causality).filter(|v| v.kind == VariableType::Real);
-        let start = d.start_time.filter(|t| t.is_finite()).unwrap_or(0.0);
-        let stop = d.stop_time.filter(|t| *t > start);
-        let h = d.step_size.filter(|h| *h > 0.0 && h.is_finite());
-        let h = h.or(stop.map(|stop| (stop - start) / 500.0)).unwrap_or(STEP);
-        Self {
-            inputs: reals("input").map(|v| v.value_reference).collect(),
-            swing: reals("input").map(|v| swing(v, d)).collect(),
-            outputs: reals("output").map(|v| v.value_reference).collect(),
-            names: reals("output").map(|v| v.name.clone()).collect(),
-            start,
-            stop,
-            h,
-            guid: d.guid.clone(),
-            resources,
-        }
-    }
-
-    /// Time after k steps.
-    pub fn time(&self, k: usize) -> f64 {
-        self.start + k as f64 * self.h
-    }
-
-    /// How many of the `wanted` steps there are until the stop time.
-    pub fn steps(&self, wanted: usize) -> usize {
-        let whole = |stop: f64| ((stop - self.start) / self.h * (1.0 + 1e-9)) as usize;
-        self.stop.map_or(wanted, |stop| whole(stop).min(wanted))
-    }
-
-    /// How a right instance is made.
-    pub fn instantiation(&self) -> Instantiation<'_> {
-        Instantiation { name: "Check", guid: &self.guid, resources: &self.resources, logging: false }
-    }
-
-    /// Inputs by number: references, start values, amplitudes.
-    pub fn input(&self, i: usize) -> Option<(u32, f64)> {
-        Some((*self.inputs.get(i)?, self.swing[i].1))
-    }
-    /// How many inputs there are.
-    pub fn input_count(&self) -> usize {
-        self.inputs.len()
-    }
-    /// References of all inputs.
-    pub fn inputs(&self) -> &[u32] {
-        &self.inputs
-    }
-    /// Name of an output.
-    pub fn name(&self, i: usize) -> &str {
-        &self.names[i]
-    }
-
-    /// Inputs at a time; another `tune` is another excitation.
-    pub fn values(&self, t: f64, tune: f64) -> Vec<f64> {
-        let tau = (t - self.start) / self.h;
-        let value = |(i, (start, amplitude)): (usize, &(f64, f64))| {
-            start + amplitude * (0.05 * (1.0 + tune) * tau + 0.7 * i as f64 + tune).sin()
-        };
-        self.swing.iter().enumerate().map(value).collect()
-    }
-}
-
-/// Start value and amplitude, by unit: 10 kN, 0.1 mm, 1 mm/s, or one.
-fn swing(v: &ScalarVariable, d: &ModelDescription) -> (f64, f64) {
-    let start = v.start.as_ref().and_then(|text| text.trim().parse().ok()).unwrap_or(0.0);
-    let unit = v.unit.as_ref().and_then(|unit| d.units.get(unit));
-    let amplitude = match unit.map(|unit| (unit.powers, unit.factor)) {
-        Some(([1, 1, -2, ..], factor)) => 1e4 / factor,
-        Some(([0, 1, 0, ..], factor)) => 1e-4 / factor,
-        Some(([0, 1, -1, ..], factor)) => 1e-3 / factor,
-        _ => 1.0,
-    };
-    (start, amplitude)
-}
-
-/// The plan's first steps; nothing if a second instance takes them otherwise, so that it cannot serve as a reference.
+/// The plan's first steps by an instance of their own; outputs that a second one gives otherwise are left out of all
+/// comparisons from then on. Nothing where there may be one instance only.
 pub fn reference(probe: &Probe, plan: &Plan, steps: usize) -> Result<Option<Vec<Vec<f64>>>, Finding> {
+    if !plan.several {
+        return Ok(None);
+    }
     let mut first = Drive::fresh(probe, plan)?;
     let run = first.steps(0..steps, 0.0)?;
     first.instance.free();
     let mut second = Drive::fresh(probe, plan)?;
     let again = second.steps(0..steps, 0.0)?;
-    let different = second.differ(&run, &again, 1e-12);
     second.instance.free();
-    Ok(if different.is_none() { Some(run) } else { None })
+    leave_out(plan, &run, &again);
+    Ok(Some(run))
+}
+
+/// Runs made again before somebody is accused.
+const CONTROLS: usize = 3;
+
+/// What still differs between the plan's first steps and a run that has shown a difference, once outputs are left out that
+/// also differ in runs of further instances: an FMU with random numbers differs now and then.
+pub fn confirmed(
+    probe: &Probe,
+    plan: &Plan,
+    expected: &[Vec<f64>],
+    run: &[Vec<f64>],
+    rounding: f64,
+) -> Result<Option<String>, Finding> {
+    let n = expected.len().min(run.len());
+    let difference = |plan: &Plan| differ(plan, &expected[..n], &run[..n], rounding);
+    for _ in 0..if plan.several { CONTROLS } else { 0 } {
+        if difference(plan).is_none() {
+            break;
+        }
+        let mut control = Drive::fresh(probe, plan)?;
+        let again = control.steps(0..expected.len(), 0.0)?;
+        control.instance.free();
+        leave_out(plan, expected, &again);
+    }
+    Ok(difference(plan))
 }
 
 /// An instance on its way.
@@ -180,7 +117,7 @@ impl<'a> Drive<'a> {
         if values.is_empty() {
             return Ok(());
         }
-        let status = self.instance.set_real(&self.plan.inputs, values);
+        let status = self.instance.set_real(self.plan.inputs(), values);
         self.ok(status, "fmi2SetReal")
     }
 
@@ -212,40 +149,40 @@ impl<'a> Drive<'a> {
 
     /// A status as a result.
     pub fn ok(&mut self, status: Status, call: &str) -> Result<(), Finding> {
+        let function = call.split(' ').next().unwrap_or(call);
         let name = match status {
             Status::Ok => return Ok(()),
             Status::Warning => {
                 self.warnings += 1;
                 return Ok(());
             }
-            Status::Discard => "discard",
+            Status::Discard => return Err(self.discarded(function, call)),
             Status::Error => "failed",
             Status::Fatal => "fatal",
             Status::Pending => "pending",
         };
-        let function = call.split(' ').next().unwrap_or(call);
-        Err(Finding::error(name, format!("{function} answers fmi2{status}"))
-            .at(call)
-            .seen(last(&self.instance.take_log())))
+        let found = Finding::error(name, format!("{function} answers fmi2{status}"));
+        let allowed = status == Status::Pending && self.plan.asynchronous;
+        let found = if allowed { found.of(Severity::Warning) } else { found };
+        Err(found.at(call).seen(last(&self.instance.take_log())))
+    }
+
+    /// fmi2Discard: an FMU may end the simulation by it, and a step or a value that it refuses so may be tried otherwise.
+    fn discarded(&mut self, function: &str, call: &str) -> Finding {
+        if function == "fmi2DoStep" && self.instance.wants_end() {
+            let what = "it ends the simulation of its own accord: fmi2Discard, and fmi2Terminated is true";
+            return Finding::remark("ends", what).at(call);
+        }
+        let allowed = matches!(function, "fmi2DoStep" | "fmi2SetReal");
+        let found = Finding::error("discard", format!("{function} answers fmi2Discard"));
+        let found = if allowed { found.of(Severity::Warning) } else { found };
+        found.at(call).seen(last(&self.instance.take_log()))
     }
 
     /// The largest difference between two runs beyond rounding: which output, and both values. `rounding` is relative to
     /// the output's largest value in either.
     pub fn differ(&self, a: &[Vec<f64>], b: &[Vec<f64>], rounding: f64) -> Option<String> {
-        let mut worst: Option<(f64, String)> = None;
-        for i in 0..self.plan.outputs.len() {
-            let size = |run: &[Vec<f64>]| run.iter().map(|y| y[i].abs()).fold(0.0, f64::max);
-            let scale = size(a).max(size(b));
-            for (k, (x, y)) in a.iter().zip(b).enumerate() {
-                let (x, y) = (x[i], y[i]);
-                let same = x.to_bits() == y.to_bits() || (x.is_nan() && y.is_nan());
-                let error = if same { 0.0 } else { (x - y).abs() / scale };
-                if !same && (error > rounding || error.is_nan()) && worst.as_ref().is_none_or(|(e, _)| error > *e) {
-                    worst = Some((error, format!("{} is {x:e} and {y:e} after step {}", self.plan.name(i), k + 1)));
-                }
-            }
-        }
-        worst.map(|(_, words)| words)
+        differ(self.plan, a, b, rounding)
     }
 }
 

@@ -2,6 +2,9 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::rules::clause;
+use crate::printed::one_line;
+
 /// How bad it is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
@@ -27,12 +30,20 @@ pub struct Finding {
     pub at: String,
     /// What was seen.
     pub evidence: String,
+    /// The clause of the standard behind the rule.
+    #[serde(default)]
+    pub clause: String,
+    /// The command that makes the same test alone.
+    #[serde(default)]
+    pub repeat: String,
 }
 
 impl Finding {
     /// An error.
     pub fn error(name: &str, what: impl Into<String>) -> Self {
-        Self { severity: Severity::Error, name: name.into(), what: what.into(), at: "".into(), evidence: "".into() }
+        let none = String::new;
+        let (name, what) = (name.into(), what.into());
+        Self { severity: Severity::Error, name, what, at: none(), evidence: none(), clause: none(), repeat: none() }
     }
 
     /// A warning.
@@ -56,6 +67,17 @@ impl Finding {
         Self { evidence: evidence.split_whitespace().collect::<Vec<_>>().join(" "), ..self }
     }
 
+    /// With another severity.
+    pub fn of(self, severity: Severity) -> Self {
+        Self { severity, ..self }
+    }
+
+    /// With its clause, and the command that repeats it.
+    pub fn complete(self, repeat: &str) -> Self {
+        let clause = if self.clause.is_empty() { clause(&self.name) } else { self.clause };
+        Self { clause, repeat: repeat.into(), ..self }
+    }
+
     /// Whether two findings say the same: one fault shows in many tests.
     pub fn same(&self, other: &Self) -> bool {
         self.name == other.name && self.what == other.what
@@ -70,12 +92,15 @@ impl std::fmt::Display for Finding {
             Severity::Warning => "warning",
             Severity::Remark => "remark",
         };
-        write!(f, "{severity:<8}{:<20} {}", self.name, self.what)?;
+        write!(f, "{severity:<8}{:<20} {}", self.name, one_line(&self.what))?;
         if !self.at.is_empty() {
-            write!(f, "; at {}", self.at)?;
+            write!(f, "; at {}", one_line(&self.at))?;
         }
         if !self.evidence.is_empty() {
-            write!(f, "; seen: {}", self.evidence)?;
+            write!(f, "; seen: {}", one_line(&self.evidence))?;
+        }
+        if !self.clause.is_empty() {
+            write!(f, " [{}; {}]", self.clause, one_line(&self.repeat))?;
         }
         Ok(())
     }

@@ -1,13 +1,16 @@
 //! A check in a process of its own: it may crash, hang, or end as it likes.
 
 use std::ffi::OsString;
-use std::fs::{self, File};
+use std::fs;
 use std::os::unix::process::ExitStatusExt;
 use std::path::Path;
-use std::process::{Child, Command, ExitStatus, Stdio};
+use std::process::{Command, ExitStatus, Stdio};
+use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
 use super::finding::Finding;
+use ttb_fmi::output::Output;
+use ttb_fmi::platform::process::Group;
 use ttb_fmi::temporary::Temporary;
 
 use crate::error::Error;
@@ -25,6 +28,12 @@ pub const DONE: &str = "done";
 
 /// Time between two looks at a worker.
 const LOOK: Duration = Duration::from_millis(5);
+/// Looks that a process which a worker has started may take to end after it.
+const ENDING: usize = 60;
+/// Bytes that are kept of what a worker prints.
+const PRINTED: usize = 4096;
+/// How a probe announces the second instance in its process.
+const SECOND: &str = ", a second instance in its process";
 
 /// Runs one check on an unpacked FMU; `patience` is how long a single call may take, `preload` the option
 /// for libraries to load first.
@@ -33,24 +42,31 @@ pub fn run(check: &str, folder: &Path, patience: Duration, preload: &[OsString])
     let file = |name: &str| place.path().join(name);
     let cwd = file("empty folder");
     fs::create_dir(&cwd).map_err(Error::io(&cwd))?;
-    let create = |name: &str| File::create(file(name)).map_err(Error::io(&file(name)));
     let program = std::env::current_exe().map_err(Error::io(Path::new("this program")))?;
     let mut command = Command::new(program);
     command.arg("check").arg("--worker").arg(check).arg("--report").arg(file("report")).args(preload).arg(folder);
-    command.current_dir(&cwd).env("TMPDIR", place.path());
-    command.stdin(Stdio::null()).stdout(create("stdout")?).stderr(create("stderr")?);
-    let child = command.spawn().map_err(Error::io(Path::new("a process for the check")))?;
-    let status =
-        wait(child, &file("report.stage"), patience).map_err(Error::io(Path::new("a process for the check")))?;
+    command.current_dir(&cwd).env("TMPDIR", place.path()).stdin(Stdio::null());
+    let started = Error::io(Path::new("a process for the check"));
+    let (status, left, [printed, complained]) =
+        watched(&mut command, &file("report.stage"), patience).map_err(started)?;
 
     let read = |name: &str| String::from_utf8_lossy(&fs::read(file(name)).unwrap_or_default()).trim().to_string();
-    let (report, stage, printed, complained) = (read("report"), read("report.stage"), read("stdout"), read("stderr"));
+    let (report, stage) = (read("report"), read("report.stage"));
     let mut findings: Vec<Finding> = report.lines().filter_map(|line| serde_json::from_str(line).ok()).collect();
     let finished = report.lines().last() == Some(DONE);
     let ended = end(status, finished, patience);
     if let Some((name, what)) = &ended {
-        let stage = if finished { "the end of the process" } else { &stage };
-        findings.push(Finding::error(name, what.as_str()).at(stage).seen(first_line(&complained)));
+        let stage = if finished { "the end of the process, when its library is unloaded" } else { &stage };
+        // An FMU that does well alone says nothing wrong at its first instance.
+        let second = stage.contains(SECOND);
+        let what = if second { format!("a second instance in the same process: {what}") } else { what.clone() };
+        let finding = Finding::error(name, what).at(stage).seen(first_line(&complained));
+        let clause = if second { "FMI 2.0, 2.1.5".into() } else { String::new() };
+        findings.push(Finding { clause, ..finding });
+    }
+    if left > 0 {
+        let what = "processes that it has started still run after its end";
+        findings.push(Finding::warning("leaves-processes", what).seen(format!("{left} of them")));
     }
     for (stream, text) in [("stdout", &printed), ("stderr", &complained)] {
         let told = stream == "stderr" && ended.is_some();
@@ -76,23 +92,64 @@ pub fn run(check: &str, folder: &Path, patience: Duration, preload: &[OsString])
     Ok(Outcome { findings, finished: finished && ended.is_none() })
 }
 
-/// The end of a process; nothing if it had to be stopped.
-fn wait(mut child: Child, stage: &Path, patience: Duration) -> std::io::Result<Option<ExitStatus>> {
+/// Runs a worker to its end: its status, nothing if it had to be stopped; how many processes it left, which are ended; what it
+/// wrote to stdout and stderr.
+fn watched(
+    command: &mut Command,
+    stage: &Path,
+    patience: Duration,
+) -> std::io::Result<(Option<ExitStatus>, usize, [String; 2])> {
+    let texts = [(); 2].map(|()| Arc::new(Mutex::new(String::new())));
+    let listen = |text: &Arc<Mutex<String>>| {
+        let text = Arc::clone(text);
+        Output::new(move |line| {
+            let mut text = text.lock().unwrap_or_else(PoisonError::into_inner);
+            // The beginning tells enough; an FMU may print without end.
+            if text.len() < PRINTED {
+                *text += line;
+                text.push('\n');
+            }
+        })
+    };
+    let ((mut out, to_out), (mut err, to_err)) = (listen(&texts[0])?, listen(&texts[1])?);
+    let mut group = Group::start(command.stdout(to_out).stderr(to_err))?;
+    // It holds the writing ends, which must close with the process.
+    *command = Command::new("");
+    let stopped = !ends(&group, stage, patience);
+    let left = left_by(&group, stopped);
+    let status = group.end();
+    out.finish();
+    err.finish();
+    let texts = texts.map(|text| std::mem::take(&mut *text.lock().unwrap_or_else(PoisonError::into_inner)));
+    Ok((status.filter(|_| !stopped), left, texts))
+}
+
+/// Whether a worker ends by itself, no call of it taking longer than `patience`.
+fn ends(group: &Group, stage: &Path, patience: Duration) -> bool {
     let (mut seen, mut since) = (Vec::new(), Instant::now());
-    loop {
-        if let Some(status) = child.try_wait()? {
-            return Ok(Some(status));
-        }
+    while !group.has_ended() {
         std::thread::sleep(LOOK);
         let now = fs::read(stage).unwrap_or_default();
         if now != seen {
             (seen, since) = (now, Instant::now());
         } else if since.elapsed() > patience {
-            child.kill()?;
-            child.wait()?;
-            return Ok(None);
+            return false;
         }
     }
+    true
+}
+
+/// How many processes a worker that has ended by itself has left; those that are just ending do not count.
+fn left_by(group: &Group, stopped: bool) -> usize {
+    let mut left = if stopped { 0 } else { group.started().len() };
+    for _ in 0..ENDING {
+        if left == 0 {
+            break;
+        }
+        std::thread::sleep(LOOK);
+        left = group.started().len();
+    }
+    left
 }
 
 /// Name and words for a process that did not end well.

@@ -106,6 +106,7 @@ pub fn serialize(context: &Context) -> Result<(), Finding> {
         return Ok(());
     }
     let repeated = BEFORE..BEFORE + REPEATED;
+    reference(&probe, &plan, repeated.end)?;
     let mut drive = Drive::fresh(&probe, &plan)?;
     drive.steps(0..BEFORE, 0.0)?;
     let state = drive.save(None)?;
@@ -130,6 +131,9 @@ pub fn serialize(context: &Context) -> Result<(), Finding> {
     drive.instance.free_state(state);
     drive.instance.free_state(copy);
     drive.instance.free();
+    if !plan.several {
+        return Ok(());
+    }
     let mut other = Drive::fresh(&probe, &plan)?;
     let (status, copy) = other.instance.deserialize(&bytes);
     other.ok(status, "fmi2DeSerializeFMUstate")?;
@@ -172,6 +176,6 @@ pub fn memory(context: &Context) -> Result<(), Finding> {
     Ok(())
 }
 
-fn at(plan: &super::drive::Plan) -> String {
+fn at(plan: &super::plan::Plan) -> String {
     format!("t = {} s", plan.time(BEFORE))
 }

@@ -1,10 +1,9 @@
 //! The other side of a check's process: makes it, reports into a file.
 
-use std::cell::RefCell;
-use std::fs::File;
-use std::io::Write;
 use std::path::Path;
 
+use ttb_fmi::guard;
+use ttb_fmi::platform::process::end_with_starter;
 use ttb_fmi2::import::read_description;
 
 use super::context::Context;
@@ -45,6 +44,7 @@ pub const CHECKS: &[Check] = &[
 
 /// A check, in its process.
 pub fn work(name: &str, folder: &Path, report: &Path) -> Result<(), Error> {
+    end_with_starter().map_err(Error::io(Path::new("a thread")))?;
     let check = CHECKS.iter().find(|check| check.name == name);
     let check = check.ok_or_else(|| Error::Input(format!("there is no check {name}")))?;
     let xml_path = folder.join("modelDescription.xml");
@@ -53,12 +53,17 @@ pub fn work(name: &str, folder: &Path, report: &Path) -> Result<(), Error> {
     let context = Context {
         folder: folder.to_path_buf(),
         description,
-        report: RefCell::new(File::create(report).map_err(Error::io(report))?),
+        report: report.to_path_buf(),
         stage: report.with_extension("stage"),
     };
+    guard::keep();
     if let Err(finding) = (check.work)(&context) {
         context.find(finding);
     }
-    let mut file = context.report.borrow_mut();
-    writeln!(file, "{}", process::DONE).map_err(Error::io(report))
+    let changed = guard::put_back();
+    if !changed.is_empty() {
+        let what = "it changes what belongs to the whole process";
+        context.find(Finding::warning("process-state", what).seen(changed.join(", ")));
+    }
+    context.write(process::DONE).map_err(Error::io(report))
 }
