@@ -113,6 +113,11 @@ def holding(name, content):
     return lambda entries: {**entries, name: content}
 
 
+def cut(name):
+    """The first half of an entry."""
+    return lambda entries: {**entries, name: entries[name][: len(entries[name]) // 2]}
+
+
 def laughs():
     """Entities that would become 10^10 characters."""
     levels = "".join(f'<!ENTITY l{i} "{f"&l{i - 1};" * 10}">' for i in range(1, 10))
@@ -148,11 +153,13 @@ ARCHIVE = [
     ),
     Fault(
         "a value reference twice",
-        {"duplicate-reference", "roll-back-inputs"},
+        {"duplicate-reference"},
         says="value reference",
         replace=[('force" valueReference="3"', 'force" valueReference="2"')],
     ),
     Fault("an unknown unit", {"unit-undefined"}, 0, replace=[('<Unit name="N">', '<Unit name="kp">')]),
+    Fault("an empty GUID", {"guid-empty", "no-instance"}, says="GUID", replace=[('guid="{faulty}"', 'guid=""')]),
+    Fault("another program needed", {"needs-tool"}, 0, replace=[("<CoSimulation", '<CoSimulation needsExecutionTool="true"')]),
     Fault("a fixed input", {"variable"}, 0, replace=[('"input" variability="continuous"', '"input" variability="fixed"')]),
     Fault("an input without start", {"variable"}, 0, replace=[('unit="N" start="0"', 'unit="N"')]),
     Fault("a time that ends before it begins", {"experiment"}, 0, replace=[('stopTime="0.5"', 'stopTime="-1"')]),
@@ -167,6 +174,7 @@ LIBRARIES = [
     Fault("a missing function", {"missing-symbol"}, says="fmi2Terminate", defines=["NO_TERMINATE"]),
     Fault("states without functions", {"flag-without-symbol"}, 0, says="cannot save and restore", defines=["NO_STATES"]),
     Fault("derivatives without function", {"flag-without-symbol"}, 0, defines=["NO_DERIVATIVES"]),
+    Fault("a function missing that all must have", {"incomplete-library"}, 0, defines=["NO_CANCEL"]),
     Fault("a wrong GUID", {"no-instance"}, says="GUID", defines=['GUID="{other}"']),
     Fault("a GUID unchecked", {"guid-unchecked"}, 0, defines=["GUID_UNCHECKED"]),
     Fault("no instance", {"no-instance"}, says="no licence", defines=["INSTANTIATE_NULL"]),
@@ -180,10 +188,25 @@ LIBRARIES = [
     Fault("URI not decoded", {"resource-uri"}, 0, defines=["URI_NOT_DECODED"]),
     Fault("NULL logged", {"logger-call"}, 0, defines=["LOG_NULL"]),
     Fault("odd formats logged", {"logger-call"}, 0, defines=["LOG_FORMAT"]),
+    Fault("another environment logged", {"logger-call"}, 0, defines=["LOG_ENVIRONMENT=s"]),
+    Fault("a number for an environment logged", {"logger-call"}, 0, defines=["LOG_ENVIRONMENT=((void*)1)"]),
+    Fault("NULL for an environment logged", {"logger-call"}, 0, defines=["LOG_ENVIRONMENT=NULL"]),
+    Fault("a folder changed", {"process-state"}, 0, defines=["CHANGES_FOLDER"]),
+    Fault("permissions changed", {"process-state"}, 0, defines=["CHANGES_UMASK"]),
+    Fault("signals ignored", {"process-state"}, 0, defines=["CHANGES_SIGNALS"]),
+    Fault("rounding changed", {"process-state"}, 0, defines=["CHANGES_ROUNDING"]),
+    Fault("files closed", {"process-state"}, None, defines=["CLOSES_FILES"]),
+    Fault("a process left", {"leaves-processes"}, None, defines=["LEAVES_PROCESS"]),
+    Fault("one instance in all", {"no-instance"}, 0, defines=["SECOND_NULL"]),
+    Fault("a crash of the second instance", {"crash"}, 0, defines=["SECOND_CRASH"]),
+    Fault("a library cut off", {"library"}, says="cut off", entries=cut(LIBRARY)),
+    Fault("an empty library", {"library"}, says="empty file", entries=holding(LIBRARY, b"")),
     Fault("prints", {"prints"}, 0, defines=["PRINTS"]),
     Fault("prints errors", {"prints"}, 0, defines=["STDERR_CHATTER"]),
     Fault("writes files", {"writes-files"}, 0, defines=["WRITES_FILE"]),
-    Fault("state in a global", {"instances", "not-repeatable", "step-elsewhere"}, 0, defines=["STATIC_STATE"]),
+    Fault("state in a global", {"not-repeatable", "step-elsewhere"}, 0, defines=["STATIC_STATE"]),
+    Fault("state shared by instances", {"instances", "step-elsewhere"}, 0, defines=["STATIC_STATE", "SHARED_STATE"]),
+    Fault("an output that is random", {"not-repeatable"}, None, defines=["RANDOM"]),
     Fault("reset keeps something", {"reset"}, 0, defines=["RESET_KEEPS"]),
     Fault("memory grows", {"memory-growth"}, 0, defines=["LEAKS"]),
     Fault("states leak", {"state-leak"}, 0, defines=["STATE_LEAK"]),
@@ -199,7 +222,10 @@ STEPS = [
     Fault("pending late", {"pending"}, says="fmi2Pending", defines=["PENDING_LATE"], reached=0.3),
     Fault("crash late", {"crash"}, None, defines=["STEP_CRASH"]),
     Fault("abort late", {"abort"}, None, defines=["STEP_ABORT"]),
-    Fault("exit late", {"exit"}, None, defines=["STEP_EXIT"]),
+    Fault("exit late", {"exit"}, says="exit(0)", defines=["STEP_EXIT"], reached=0.3),
+    Fault("exit at once late", {"exit"}, says="exit(7)", defines=["STEP_EXIT_AT_ONCE"], reached=0.3),
+    Fault("an end of the thread late", {"abort"}, says="exit(0)", defines=["STEP_ENDS_THREAD"], reached=0.3),
+    Fault("an end late", {"ends"}, says="fmi2Discard", defines=["ENDS_LATE"], reached=0.3, checked=0),
     Fault("hang late", {"hang"}, None, defines=["STEP_HANG"]),
     Fault("warnings", {"warnings"}, 0, defines=["WARNS"]),
     Fault("a fixed step", {"step-halved", "step-jitter"}, None, defines=["FIXED_STEP"]),
@@ -214,12 +240,32 @@ STATES = [
     Fault("set forgets the inputs", {"roll-back-inputs"}, 0, defines=["SET_FORGETS_INPUTS"]),
     Fault("set forgets something hidden", {"roll-back", "derivatives", "serialize"}, 0, says="a step repeated from a restored state differs", defines=["HISTORY"]),
     Fault("set works for near states", {"roll-back-later", "roll-back-inputs"}, 0, defines=["SET_ONLY_NEAR"]),
+    Fault("get gives NULL", {"state-null"}, says="no saved state", defines=["STATE_NULL"]),
+    Fault("free keeps the handle", {"free-state"}, 0, defines=["FREE_KEEPS_HANDLE"]),
+    Fault("a serialized state of 2^60 bytes", {"serialize"}, 0, defines=["SERIALIZED_TOO_LARGE"]),
     Fault("get refuses", {"failed"}, says="no room", defines=["GET_STATE_ERROR"]),
     Fault("get disturbs", {"roll-back-save", "roll-back-first"}, 0, defines=["SAVE_DISTURBS"]),
     Fault("a serialized state too small", {"serialize"}, 0, defines=["SERIALIZED_TOO_SMALL"]),
     Fault("a serialized state without motion", {"serialize"}, 0, defines=["SERIALIZED_WITHOUT_MOTION"]),
     Fault("wrong derivatives", {"derivatives"}, 0, defines=["WRONG_DERIVATIVES"]),
     Fault("derivatives of wrong sign", {"derivatives"}, 0, defines=["WRONG_SIGN_DERIVATIVES"]),
+]
+
+# What looks odd and is allowed: `ttb check` finds nothing, and a run is that of the plain FMU.
+NO_DERIVATIVES = ('providesDirectionalDerivative="true"', "")
+ONCE = [("<CoSimulation", '<CoSimulation canBeInstantiatedOnlyOncePerProcess="true"')]
+SOUND = [
+    Fault("plain", set(), 0),
+    Fault("units without base", set(), 0, replace=[('<Unit name="N"><BaseUnit kg="1" m="1" s="-2"/></Unit>', '<Unit name="N"/>')]),
+    Fault("a unit that says nothing", set(), 0, replace=[('<Real unit="m/s"/>', '<Real unit=""/>')]),
+    Fault("a minus zero", set(), 0, defines=["NEGATIVE_ZERO"], replace=[NO_DERIVATIVES]),
+    Fault("outputs that share a reference", set(), 0, replace=[('displacement" valueReference="50"', 'displacement" valueReference="49"')]),
+    Fault("an output that is an input", set(), 0, replace=[('displacement" valueReference="50"', 'displacement" valueReference="0"'), NO_DERIVATIVES]),
+    Fault("derivatives of both kinds", set(), 0, defines=["MIXED_DERIVATIVES"]),
+    Fault("derivatives of the instant", set(), 0, defines=["INSTANT_DERIVATIVES"]),
+    Fault("no category where there are none", set(), 0, defines=["LOG_NO_CATEGORY"]),
+    Fault("one instance where more are not promised", set(), 0, defines=["SECOND_NULL"], replace=ONCE),
+    Fault("a crash of the second where more are not promised", set(), 0, defines=["SECOND_CRASH"], replace=ONCE),
 ]
 
 ALL = ARCHIVE + LIBRARIES + STEPS + STATES

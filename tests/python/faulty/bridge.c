@@ -3,10 +3,15 @@
  * N forces in (value references 0 … N-1), N displacements out (N … 2N-1), N velocities out (2N … 3N-1): the first mode
  * of a simply supported beam at N supports. The force is held over a step; implicit midpoint rule. */
 #define _GNU_SOURCE
+#include <fcntl.h>
+#include <fenv.h>
 #include <math.h>
+#include <pthread.h>
+#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #ifndef N
@@ -23,10 +28,14 @@ typedef struct { double force[N], q, v, end, h; long steps; } state_t; /* end: o
 typedef struct { const callbacks_t *callbacks; state_t now; double hidden; int initialized; } instance_t;
 enum { OK, WARNING, DISCARD, ERROR, FATAL, PENDING };
 
+#ifndef MASS
+#define MASS 482950
+#define STIFFNESS 6.24e8
+#endif
 #ifdef GAINS_ENERGY
-static const double mass = 482950, stiffness = 6.24e8, damping = -6e7;
+static const double mass = MASS, stiffness = STIFFNESS, damping = -6e7;
 #else
-static const double mass = 482950, stiffness = 6.24e8, damping = 1.7e6;
+static const double mass = MASS, stiffness = STIFFNESS, damping = 1.7e6;
 #endif
 
 #ifdef STATIC_STATE
@@ -35,6 +44,8 @@ static state_t shared;
 #else
 #define NOW(s) (&(s)->now)
 #endif
+
+static int born; /* instances made so far */
 
 static double shape(unsigned i) { return sin(M_PI * (i + 1) / (N + 1)); }
 static double load(const state_t *s) {
@@ -71,6 +82,16 @@ void *fmi2Instantiate(const char *name, int type, const char *guid, const char *
         return NULL;
     }
 #endif
+    born++;
+#ifdef SHARED_STATE
+    memset(&shared, 0, sizeof shared);
+#endif
+#ifdef SECOND_NULL
+    if (born > 1) return NULL;
+#endif
+#ifdef SECOND_CRASH
+    if (born > 1) *(volatile int *)8 = 1;
+#endif
 #ifdef URI_PICKY
     if (strncmp(resources, "file:///", 8) != 0) return NULL;
 #endif
@@ -84,6 +105,30 @@ void *fmi2Instantiate(const char *name, int type, const char *guid, const char *
     s->callbacks = callbacks;
 #ifdef LOG_NULL
     callbacks->logger(callbacks->environment, NULL, OK, NULL, NULL);
+#endif
+#ifdef LOG_NO_CATEGORY
+    callbacks->logger(callbacks->environment, name, OK, NULL, "hello");
+#endif
+#ifdef LOG_ENVIRONMENT
+    callbacks->logger(LOG_ENVIRONMENT, name, OK, "info", "hello");
+#endif
+#ifdef CHANGES_FOLDER
+    if (chdir("/")) return NULL;
+#endif
+#ifdef CHANGES_UMASK
+    umask(0777);
+#endif
+#ifdef CHANGES_SIGNALS
+    for (int i = 1; i < 32; i++) signal(i, SIG_IGN);
+#endif
+#ifdef CHANGES_ROUNDING
+    fesetround(FE_UPWARD);
+#endif
+#ifdef CLOSES_FILES
+    for (int i = 3; i < 1024; i++) close(i);
+#endif
+#ifdef LEAVES_PROCESS
+    if (!fork()) for (;;) pause();
 #endif
 #ifdef LOG_FORMAT
     callbacks->logger(callbacks->environment, name, OK, "info", "loaded to 100 %, %n and %Q are no formats");
@@ -150,6 +195,12 @@ int fmi2GetReal(void *c, const unsigned *vr, size_t n, double *values) {
 #endif
     for (size_t i = 0; i < n; i++) {
         if (vr[i] >= 3 * N) return ERROR;
+#ifdef RANDOM
+        if (vr[i] == 2 * N - 1) { values[i] = rand() % 4 ? 1.0 : 2.0; continue; } /* the last displacement */
+#endif
+#ifdef NEGATIVE_ZERO
+        if (vr[i] == 2 * N - 1) { values[i] = born % 2 ? 0.0 : -0.0; continue; } /* the last displacement */
+#endif
         values[i] = vr[i] < N ? now->force[vr[i]] : vr[i] < 2 * N ? q * shape(vr[i] - N) : v * shape(vr[i] - 2 * N);
     }
     return OK;
@@ -197,6 +248,35 @@ int fmi2DoStep(void *c, double t, double h, int no_restore) {
 #ifdef STEP_EXIT
     if (late) exit(0);
 #endif
+#ifdef STEP_EXIT_AT_ONCE
+    if (late) _exit(7);
+#endif
+#ifdef STEP_ENDS_THREAD
+    if (late) pthread_exit(NULL);
+#endif
+#ifdef STEP_COPIES
+    static int copied;
+    if (late && !copied++) fork(); /* both come back */
+#endif
+#ifdef STEP_CHANGES_ALL
+    static int changed;
+    if (late && !changed++) {
+        fesetround(FE_UPWARD);
+        feenableexcept(FE_DIVBYZERO | FE_INVALID | FE_OVERFLOW | FE_INEXACT);
+        umask(0777);
+        if (chdir("/")) return ERROR;
+        for (int i = 1; i < 32; i++) if (i != SIGFPE) signal(i, SIG_IGN);
+    }
+#endif
+#ifdef ENDS_LATE
+    if (late) return DISCARD;
+#endif
+#ifdef LOGS_ESCAPES
+    if (late) {
+        cb->logger(cb->environment, "x", ERROR, "error", "\033]0;x\007\033[2J\xe2\x80\xaettb: fine\nttb: second line\r");
+        return ERROR;
+    }
+#endif
 #ifdef STEP_HANG
     if (late) for (;;) pause();
 #endif
@@ -242,11 +322,20 @@ int fmi2SetBoolean(void *c, const unsigned *vr, size_t n, const int *values) { (
 int fmi2SetString(void *c, const unsigned *vr, size_t n, const char *const *values) { (void)c; (void)vr; (void)values; return n ? ERROR : OK; }
 int fmi2SetRealInputDerivatives(void *c, const unsigned *vr, size_t n, const int *order, const double *values) { (void)c; (void)vr; (void)n; (void)order; (void)values; return ERROR; }
 int fmi2GetRealOutputDerivatives(void *c, const unsigned *vr, size_t n, const int *order, double *values) { (void)c; (void)vr; (void)n; (void)order; (void)values; return ERROR; }
+#ifndef NO_CANCEL
 int fmi2CancelStep(void *c) { (void)c; return ERROR; }
+#endif
 int fmi2GetStatus(void *c, int kind, int *value) { (void)c; (void)kind; (void)value; return DISCARD; }
 int fmi2GetRealStatus(void *c, int kind, double *value) { (void)c; (void)kind; (void)value; return DISCARD; }
 int fmi2GetIntegerStatus(void *c, int kind, int *value) { (void)c; (void)kind; (void)value; return DISCARD; }
-int fmi2GetBooleanStatus(void *c, int kind, int *value) { (void)c; (void)kind; (void)value; return DISCARD; }
+int fmi2GetBooleanStatus(void *c, int kind, int *value) {
+    (void)c; (void)kind; (void)value;
+#ifdef ENDS_LATE
+    *value = kind == 3; /* fmi2Terminated */
+    return OK;
+#endif
+    return DISCARD;
+}
 int fmi2GetStringStatus(void *c, int kind, const char **value) { (void)c; (void)kind; (void)value; return DISCARD; }
 
 #ifndef NO_STATES
@@ -255,6 +344,9 @@ int fmi2GetFMUstate(void *c, void **state) {
 #ifdef GET_STATE_ERROR
     s->callbacks->logger(s->callbacks->environment, "x", ERROR, "error", "no room");
     return ERROR;
+#endif
+#ifdef STATE_NULL
+    return OK;
 #endif
 #ifdef STATE_LEAK
     *state = NULL; /* forgets the one it was given */
@@ -287,10 +379,19 @@ int fmi2SetFMUstate(void *c, void *state) {
     NOW(s)->end = saved->end; /* these faults are about motion */
     return OK;
 }
-int fmi2FreeFMUstate(void *c, void **state) { (void)c; free(*state); *state = NULL; return OK; }
+int fmi2FreeFMUstate(void *c, void **state) {
+    (void)c;
+    free(*state);
+#ifndef FREE_KEEPS_HANDLE
+    *state = NULL;
+#endif
+    return OK;
+}
 int fmi2SerializedFMUstateSize(void *c, void *state, size_t *size) {
     (void)c; (void)state;
-#ifdef SERIALIZED_TOO_SMALL
+#if defined(SERIALIZED_TOO_LARGE)
+    *size = (size_t)1 << 60;
+#elif defined(SERIALIZED_TOO_SMALL)
     *size = sizeof(state_t) - 16;
 #else
     *size = sizeof(state_t);
@@ -326,6 +427,14 @@ int fmi2GetDirectionalDerivative(void *c, const unsigned *unknown, size_t n, con
 #endif
     for (size_t i = 0; i < n; i++) {
         if (unknown[i] < N || unknown[i] >= 3 * N) return ERROR;
+#ifdef MIXED_DERIVATIVES
+        /* Velocities are states: forces do not change them at once. */
+        if (unknown[i] >= 2 * N) { out[i] = 0; continue; }
+#endif
+#ifdef INSTANT_DERIVATIVES
+        out[i] = 0;
+        continue;
+#endif
         out[i] = unknown[i] < 2 * N ? h * vm * shape(unknown[i] - N) : 2 * vm * shape(unknown[i] - 2 * N);
     }
     return OK;
