@@ -68,7 +68,7 @@ def test_factors_turn_signs_and_units(ttb, renamed, r1_run, examples, tmp_path):
         ({"parameters": {"stifness_factor": 2}}, "no variable `stifness_factor` (did you mean `stiffness_factor`?)"),
         ({"parameters": {"stiffness_factor": "two", "uz_0": 1}}, "stiffness_factor is a Real, not \"two\""),
         ({"force": series("F_{i}", 0.0)}, "$.force: factor must be finite and not 0: 0"),
-        ({"forces": series("F_{i}")}, "unknown field `forces`"),
+        ({"forces": series("F_{i}")}, "$.forces: unknown key: `forces` (did you mean `force`?)"),
     ],
 )
 def test_a_map_that_does_not_fit_is_refused(ttb, renamed, examples, tmp_path, change, message):

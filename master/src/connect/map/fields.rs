@@ -1,5 +1,6 @@
 //! What a map consists of: series of variables, places along the track, values of parameters.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use ttb_coupling::Shape;
 use ttb_fmi::description::ModelDescription;
@@ -8,7 +9,7 @@ use ttb_fmi::description::ModelDescription;
 pub const INDEX: &str = "{i}";
 
 /// Variables with a running number, or one by one.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Series {
     /// Name with `{i}` in place of the number.
@@ -26,7 +27,7 @@ pub struct Series {
 }
 
 /// Positions along the track, m from the bridge's begin in the scenario.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(untagged)]
 pub enum Places {
     /// One by one.
@@ -38,7 +39,7 @@ pub enum Places {
 }
 
 /// Equally spaced places, m.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Even {
     /// The first.
@@ -48,7 +49,7 @@ pub struct Even {
 }
 
 /// Places that the FMU knows.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Read {
     /// Name with `{i}` in place of the number.
@@ -65,7 +66,7 @@ pub struct Read {
 }
 
 /// Shape of the deck between stations.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Interpolation {
     /// Straight lines.
@@ -76,7 +77,7 @@ pub enum Interpolation {
 }
 
 /// A parameter's value.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(untagged)]
 pub enum Value {
     /// For a Boolean.

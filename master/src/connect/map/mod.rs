@@ -24,13 +24,14 @@ mod fields;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::error::Error;
 pub use fields::{Even, INDEX, Interpolation, Places, Read, Series, Value};
 
 /// The whole map.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Map {
     /// Inputs of the bridge: forces on the deck.
@@ -112,8 +113,10 @@ impl Map {
     /// Reads the file.
     pub fn load(path: &Path) -> Result<Self, Error> {
         let refused = |why: String| Error::Input(format!("{}: {why}", path.display()));
-        let text = std::fs::read_to_string(path).map_err(|e| refused(e.to_string()))?;
-        let mut map: Self = serde_json::from_str(&text).map_err(|e| refused(e.to_string()))?;
+        let text = ttb_scenario::read_text(path).map_err(|e| refused(e.to_string()))?;
+        let schema = schemars::schema_for!(Self).to_value();
+        let read = ttb_scenario::read_as(&text, &schema, &path.display().to_string());
+        let mut map: Self = read.map_err(Error::Scenario)?;
         map.path = path.to_path_buf();
         let problems = map.problems();
         if problems.is_empty() { Ok(map) } else { Err(refused(problems.join(&format!("\n{}: ", path.display())))) }
@@ -176,6 +179,35 @@ mod tests {
                         "stations": { "name": "x{i}", "first": -9223372036854775808 } }"#;
         assert_eq!(problems(text).len(), 2, "{:?}", problems(text));
         assert_eq!(problems(r#"{ "force": { "name": "f{i}", "first": -1000000000 } }"#), Vec::<String>::new());
+    }
+
+    #[test]
+    fn a_map_that_cannot_be_read_is_told_with_its_places() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("map.json");
+        let refused = |text: &str| {
+            std::fs::write(&path, text).unwrap();
+            let error = Map::load(&path).unwrap_err();
+            assert_eq!(error.code(), 2);
+            error.to_string()
+        };
+        let place = path.display();
+        for (text, expected) in [
+            ("{ \"force\": }", "$.force: not JSON: expected a value: found `}` in line 1, column 12"),
+            ("{ \"force\": { \"nmae\": \"f[{i}]\" } }", "$.force.nmae: unknown key: `nmae` (did you mean `name`?)"),
+            ("{ \"stations\": { \"from\": 0 } }", "$.stations.spacing: missing key: `spacing`"),
+            ("{ \"stations\": \"0, 1\" }", "$.stations: must be a list or an object or null: \"0, 1\""),
+            (
+                "{ \"interpolation\": \"qubic\" }",
+                "$.interpolation: must be one of linear, cubic: \"qubic\" (did you mean `cubic`?)",
+            ),
+            ("", "$: not JSON: expected a value: found the end of the file in line 1, column 1"),
+        ] {
+            let said = refused(text);
+            assert!(said.contains(&format!("{place}: {expected}")), "{text}\n{said}");
+        }
+        // All at once.
+        assert_eq!(refused("{ \"forec\": {}, \"velocity\": 3, \"roll_back\": \"no\" }").lines().count(), 3);
     }
 
     #[test]
