@@ -145,7 +145,7 @@ def test_a_wrong_sign_or_unit_is_refused_with_the_factor_that_mends_it(ttb, exam
     said = ttb(*arguments, expect=2).stderr
     proposed = {key: float(number) for key, number in re.findall(r'"(\w+)" \(\S+ …\): "factor": (\S+?)[ ,;\n]', said + "\n")}
     assert proposed == pytest.approx(mended), said
-    assert json.loads((tmp_path / "out" / "summary.json").read_text())["status"] == "bad-input"
+    assert not (tmp_path / "out").exists()  # no step was taken
 
 
 def test_motions_that_begin_at_another_number_are_refused(ttb, examples, r1, tmp_path):

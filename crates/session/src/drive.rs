@@ -1,8 +1,9 @@
 //! The loop over the steps of a run, for whatever takes steps.
 //!
 //! ```text
-//! start;  read row 0;  observers            static equilibrium
+//! start;  read row 0                        static equilibrium
 //! rehearse                                  trial steps, undone
+//! observers: begin, row 0                   what is refused before leaves nothing behind
 //! for n = 0 … N−1
 //!   step [t_n, t_{n+1}];  read row n+1;  observers        t_n = n h, never summed up
 //! end;  observers
@@ -73,17 +74,25 @@ pub enum Ended {
     Stopped,
 }
 
-/// Takes all steps. The observers see the start, every accepted step in their order, and the end, which comes whatever
-/// happened.
+/// Takes all steps. Once the system has started and trial steps do not speak against the run, the observers see the begin, every
+/// accepted step in their order, and the end, which comes whatever happened.
 ///
 /// # Errors
 /// Why the run could not go on: all steps before were seen. If the run itself went well, the first observer that failed at
 /// the end.
 pub fn drive(system: &mut dyn Stepping, plan: &Plan, observers: &mut [&mut dyn Observer]) -> Result<Ended, RunError> {
     let columns = system.columns(plan.wanted);
-    let begin = Begin { columns: &columns, axis: &plan.axis };
+    let (axis, clock) = (&plan.axis, plan.clock);
+    let mut row = vec![0.0; columns.len()];
+    let begun = clock();
+    system.start()?;
+    system.read(&mut row)?;
+    let at = clock();
+    system.rehearse(axis)?;
+    let begin = Begin { columns: &columns, axis };
     let outcome = observers.iter_mut().try_for_each(|observer| observer.start(&begin));
-    let outcome = outcome.and_then(|()| steps(system, plan, columns.len(), observers));
+    let timing = Timing { wall: at - begun, inside: [0.0; 2], at };
+    let outcome = outcome.and_then(|()| steps(system, plan, row, timing, observers));
     let mut failed = Ok(());
     for observer in observers.iter_mut() {
         failed = failed.and(observer.end());
@@ -94,20 +103,14 @@ pub fn drive(system: &mut dyn Stepping, plan: &Plan, observers: &mut [&mut dyn O
 fn steps(
     system: &mut dyn Stepping,
     plan: &Plan,
-    columns: usize,
+    mut row: Vec<f64>,
+    timing: Timing,
     observers: &mut [&mut dyn Observer],
 ) -> Result<Ended, RunError> {
     let (axis, clock) = (&plan.axis, plan.clock);
-    let mut row = vec![0.0; columns];
-    let begun = clock();
-    system.start()?;
-    system.read(&mut row)?;
-    let at = clock();
-    let timing = Timing { wall: at - begun, inside: [0.0; 2], at };
     if show(observers, &Moment { n: 0, t: axis.time(0), h: 0.0, row: &row, info: None, timing })?.is_break() {
         return Ok(Ended::Stopped);
     }
-    system.rehearse(axis)?;
     for n in 0..axis.steps() {
         let (t, h) = (axis.time(n), axis.size(n));
         let (begun, before) = (clock(), system.inside());

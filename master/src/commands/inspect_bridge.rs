@@ -31,6 +31,6 @@ pub(super) fn is_model(file: &Path) -> bool {
         train: Option<serde::de::IgnoredAny>,
         nodes: Option<serde::de::IgnoredAny>,
     }
-    let text = std::fs::read_to_string(file).unwrap_or_default();
+    let text = ttb_scenario::read_text(file).unwrap_or_default();
     serde_json::from_str::<Either>(&text).is_ok_and(|e| e.train.is_none() && e.nodes.is_some())
 }

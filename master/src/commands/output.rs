@@ -1,9 +1,12 @@
 //! What `ttb run` puts into its folder beside the rows: before the first step, and at the end.
 
 use std::cell::Cell;
+use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
 use ttb_scenario::types::Scenario;
+use ttb_session::RunError;
+use ttb_session::observe::{Begin, Moment, Observer};
 
 use crate::cli::Run;
 use crate::connect::map::Map;
@@ -59,13 +62,18 @@ impl<'a> Output<'a> {
         Self { scenario: Some(scenario), maps, ..self }
     }
 
+    /// Whether anything has been written.
+    pub fn is_begun(&self) -> bool {
+        self.running.get()
+    }
+
     /// Where it is.
     pub fn folder(&self) -> &Path {
         self.folder.path()
     }
 
     /// Replaces what an earlier run left by what is known before the first step; the summary says `running`.
-    pub fn begin(&self) -> Result<(), Error> {
+    fn begin(&self) -> Result<(), Error> {
         let known = |name: &str| name == SUMMARY || name == SCENARIO || FILES.contains(&name) || name.starts_with(MAP);
         self.folder.begin(known, self.inputs.iter().copied())?;
         self.running.set(true);
@@ -81,6 +89,17 @@ impl<'a> Output<'a> {
             files::copy(fmu, &self.folder.path().join(fmu.file_name().unwrap_or_default()))?;
         }
         Ok(())
+    }
+
+    /// As [`Output::begin`], for an observer of the run.
+    fn opened(&self) -> Result<(), RunError> {
+        self.begin().map_err(|error| match error {
+            Error::Io { path, source } => RunError::Write { what: path.display().to_string(), source },
+            other => RunError::Write {
+                what: self.folder().display().to_string(),
+                source: std::io::Error::other(other.to_string()),
+            },
+        })
     }
 
     /// Writes a file, unless it is one that the run reads.
@@ -107,5 +126,18 @@ impl<'a> Output<'a> {
     fn summary(&self, outcome: Option<&Result<(), Error>>) -> Result<(), Error> {
         let shown = Shown::default();
         Summary::new(self.job, outcome, &shown).write(&self.folder.file(SUMMARY))
+    }
+}
+
+/// Begins a folder when the run does: what is refused before leaves the folder as it was.
+pub struct Opening<'a, 'b>(pub &'a Output<'b>);
+
+impl Observer for Opening<'_, '_> {
+    fn start(&mut self, _: &Begin) -> Result<(), RunError> {
+        self.0.opened()
+    }
+
+    fn step(&mut self, _: &Moment) -> Result<ControlFlow<()>, RunError> {
+        Ok(ControlFlow::Continue(()))
     }
 }

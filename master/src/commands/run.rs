@@ -11,7 +11,7 @@ use ttb_scenario::Checked;
 use ttb_session::observe::{Iterations, IterationsCsv, Peaks, Progress, ResultsCsv, Timed};
 use ttb_session::{Coupled, Ended, Plan, drive};
 
-use super::output::Output;
+use super::output::{Opening, Output};
 use super::progress::progress_bar;
 use crate::assess::run::{About, write as write_assessment};
 use crate::assess::watch::Watch;
@@ -21,10 +21,11 @@ use crate::connect::connected::{Connected, Given, connect};
 use crate::connect::isolate::Isolated;
 use crate::connect::map::Map;
 use crate::connect::preload;
-use crate::connect::probe::judge;
+use crate::connect::probe::{judge, judge_own};
 use crate::error::Error;
 use crate::pictures::plot::Plot;
 use crate::prepare::{auto, fmus};
+use crate::results::belief::unbelievable;
 use crate::results::coupled::{CouplingReport, returned};
 use crate::results::credible::Doubts;
 use crate::results::folder::Folder;
@@ -169,24 +170,32 @@ fn run_connected(
     begin: Instant,
 ) -> Result<(), Error> {
     stop.gently();
-    output.begin()?;
     let axis = job.case.axis();
     let [results, iterations] = ["results.csv", "iterations.csv"].map(|name| output.folder().join(name));
-    let mut results = ResultsCsv::new(Rows::create(&results)?, &results.display().to_string(), job.case.every)
+    let mut results = ResultsCsv::new(Rows::of(&results), &results.display().to_string(), job.case.every)
         .with(&job.case.columns, job.case.csv);
     let mut iterations =
-        IterationsCsv::new(Rows::create(&iterations)?, &iterations.display().to_string()).with(job.case.csv);
+        IterationsCsv::new(Rows::of(&iterations), &iterations.display().to_string()).with(job.case.csv);
     let mut log = Log::new(job);
     let bar = progress_bar(axis.steps(), arguments.quiet);
     let mut tell = |n| bar.set_position(n);
     let mut progress = Progress::new(&mut tell, stop.flag());
     let clock = || begin.elapsed().as_secs_f64();
     let plan = Plan { axis, wanted: &|column| job.case.keeps(column), clock: &clock };
-    let Connected { train_track, bridge, coupling, parts, probe, .. } = &mut *connected;
+    let Connected { train_track, bridge, coupling, parts, probe, warnings, .. } = &mut *connected;
+    let own = judged.checked.filter(|_| arguments.bridge.is_empty()).map(|checked| &checked.bridge.structure);
     let (name, groups) = (train_track.name().to_string(), bridge.ranges());
     let mut look = |found: &Probe| {
         probe.clone_from(found);
-        judge(found, &name, parts)
+        match own {
+            Some(structure) => {
+                let told = judge_own(found, &name, structure)?;
+                warn(&told);
+                warnings.extend(told);
+                Ok(())
+            }
+            None => judge(found, &name, parts),
+        }
     };
     let mut coupled = Coupled::new(train_track, bridge, coupling);
     if !arguments.no_probe {
@@ -196,6 +205,7 @@ fn run_connected(
         &mut coupled,
         &plan,
         &mut [
+            &mut Opening(output),
             &mut log.counted,
             &mut iterations,
             &mut results,
@@ -216,7 +226,7 @@ fn run_connected(
         Ok(Ended::Stopped) => stop.asked().map_or(Ok(()), |signal| Err(Error::Interrupted(signal))),
         Err(error) => Err(error.into()),
     };
-    if matches!(outcome, Err(Error::NoReturn(_))) {
+    if matches!(outcome, Err(Error::NoReturn(_))) || !output.is_begun() {
         return outcome;
     }
     finish(job, log, outcome, connected, output, judged, arguments.quiet)
@@ -285,6 +295,7 @@ fn finish(
         write_assessment(output.folder(), &about, &histories, judged.criteria, &judged.facts)
     });
     let noticed = not_finite(&log.peaks).into_iter().chain(returned(report)).chain(doubts.warnings);
+    let noticed = noticed.chain(unbelievable(&log.peaks, &job.scale));
     let noticed: Vec<String> = noticed.collect();
     warn(&noticed);
     let shown = Shown {
@@ -297,7 +308,8 @@ fn finish(
     };
     let summary = Summary::new(job, Some(&outcome), &shown);
     let written = output.end(&summary);
-    if !quiet {
+    // Of a run without a step the error says all there is.
+    if !quiet && shown.iterations.steps > 0 {
         summary.print(output.folder());
     }
     outcome.and(written)

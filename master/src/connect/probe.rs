@@ -1,7 +1,8 @@
 //! What the trial steps before the first one mean, in the words of the map.
 
-use ttb_coupling::probe::response::{Mismatch, Response};
+use ttb_coupling::probe::response::{CREDIBLE, Mismatch, Response};
 use ttb_coupling::probe::{Probe, returns};
+use ttb_scenario::spec::StructureSpec;
 use ttb_session::RunError;
 use ttb_session::error::Refusal;
 
@@ -29,6 +30,80 @@ pub fn judge(probe: &Probe, train_track: &str, parts: &[(String, Assigned)]) -> 
         problems.join("\n")
     ))))
 }
+
+/// As [`judge`], for the bridge of the scenario itself, which was built here: no map can be wrong. What no deck can do is
+/// refused, what is only unusual is returned as a warning.
+pub fn judge_own(probe: &Probe, train_track: &str, bridge: &StructureSpec) -> Result<Vec<String>, RunError> {
+    judge(&Probe { responses: Vec::new(), ..probe.clone() }, train_track, &[])?;
+    let refused = |text: String| Err(RunError::Refused(Refusal::Input(text)));
+    let (mass, stiffness) = match bridge {
+        StructureSpec::Beams { .. } => {
+            ("$.bridge.structure.spans[].mass (kg/m; given in t/m?)", "its lengths (m) and bending_stiffness (N m²)")
+        }
+        StructureSpec::Frame(_) => (
+            "$.bridge.structure.frame.sections[].mass (kg/m; given in t/m?)",
+            "modulus (N/m²), area and inertia (m², m⁴)",
+        ),
+        StructureSpec::FiniteElements(_) => (
+            "density (kg/m³; given in t/m³?) and added_mass of $.bridge.structure.model",
+            "modulus (N/m²) and coordinates (m)",
+        ),
+        StructureSpec::Matrices { .. } | StructureSpec::Stored => (
+            "$.bridge.structure.files.mass (kg; given in t?)",
+            "$.bridge.structure.files.stiffness (N/m; given in kN/m, or with lengths in mm?)",
+        ),
+    };
+    let supports = match bridge {
+        StructureSpec::Matrices { files, .. } => format!("$.bridge.structure.files.supports ({})", files.supports),
+        _ => "$.bridge.structure".into(),
+    };
+    let mut warnings = Vec::new();
+    for response in &probe.responses {
+        let seen = response.mass[0];
+        match response.mismatch() {
+            None => {}
+            Some(Mismatch::Still(_)) => {
+                return refused(format!("the deck does not move under forces on its supports: look at {supports}"));
+            }
+            Some(Mismatch::Against(i)) => {
+                let number = i + 1;
+                return refused(format!(
+                    "the deck moves against a force on support {number}, at other supports it does not: look at {supports}; \
+                     have weights there the wrong sign? (trial forces before the first step show this; --no-probe skips them)"
+                ));
+            }
+            Some(Mismatch::Mixed(i, j)) => {
+                return refused(format!(
+                    "forces on supports {} and {} move each other's place as on no deck: look at {supports}; are rows or nodes \
+                     mixed up? (trial forces before the first step show this; --no-probe skips them)",
+                    i + 1,
+                    j + 1
+                ));
+            }
+            Some(_) if seen < 0.0 => {
+                return refused(format!(
+                    "the deck moves against the forces on it: look at {mass} and {stiffness}: M or K is not positive definite \
+                     (trial forces before the first step show this; --no-probe skips them)"
+                ));
+            }
+            Some(_) if seen < LIGHTEST => {
+                return refused(format!(
+                    "the deck answers as if it had {seen:.2e} kg under each support, as none does: look at {mass}, and at \
+                     $.time.step (s; trial forces before the first step show this; --no-probe skips them)"
+                ));
+            }
+            Some(_) => warnings.push(format!(
+                "the deck answers as if it had {seen:.2e} kg under each support, usual {:.0} to {:.0e} kg: if that is not so, look at \
+                 {mass}, {stiffness} and $.time.step (s; given in ms?)",
+                CREDIBLE.start, CREDIBLE.end
+            )),
+        }
+    }
+    Ok(warnings)
+}
+
+/// No deck of a railway bridge has so little under a support, kg.
+const LIGHTEST: f64 = 1.0;
 
 fn no_return(off: f64) -> String {
     format!(

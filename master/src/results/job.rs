@@ -5,6 +5,7 @@ use ttb_scenario::spec::Profile;
 use ttb_scenario::{Checked, Chosen};
 use ttb_session::Case;
 
+use super::belief::Scale;
 use super::choice::Choice;
 use super::provenance::{Options, Provenance};
 use super::scene::Scene;
@@ -22,6 +23,8 @@ pub struct Job {
     pub chosen: Vec<Chosen>,
     /// Why the steps are as they are, if they were left to the program.
     pub choice: Option<Choice>,
+    /// What results are compared with to be believed.
+    pub scale: Scale,
     /// What a picture needs to know.
     pub scene: Scene,
     /// Command and files.
@@ -57,6 +60,7 @@ impl Job {
             },
             chosen: checked.chosen.clone(),
             choice,
+            scale: Scale::new(checked),
             scene: Scene::new(checked),
             provenance,
         }

@@ -1,5 +1,6 @@
 //! What a run leaves behind: rows, extremes, the summary, and where all of it comes from.
 
+pub mod belief;
 pub mod choice;
 pub mod coupled;
 pub mod credible;

@@ -2,9 +2,7 @@
 
 use std::fs::{File, OpenOptions};
 use std::io::{self, Write};
-use std::path::Path;
-
-use crate::error::Error;
+use std::path::{Path, PathBuf};
 
 /// Rows that are written at once, bytes.
 const BUFFER: usize = 1 << 16;
@@ -12,17 +10,18 @@ const BUFFER: usize = 1 << 16;
 /// Takes a row, or several, with every call of `write`, and puts them on the disk in larger parts. On a disk that is full as
 /// many rows stay as there is room for.
 pub struct Rows {
-    file: File,
+    path: PathBuf,
+    /// Made with the first row.
+    file: Option<File>,
     rows: Vec<u8>,
     /// Length of the file, whole rows.
     length: u64,
 }
 
 impl Rows {
-    /// Of a new file.
-    pub fn create(path: &Path) -> Result<Self, Error> {
-        let file = OpenOptions::new().write(true).create(true).truncate(true).open(path).map_err(Error::io(path))?;
-        Ok(Self { file, rows: Vec::new(), length: 0 })
+    /// Of a new file, which is made when there is something to write.
+    pub fn of(path: &Path) -> Self {
+        Self { path: path.to_path_buf(), file: None, rows: Vec::new(), length: 0 }
     }
 }
 
@@ -37,12 +36,17 @@ impl Write for Rows {
     }
 
     fn flush(&mut self) -> io::Result<()> {
+        let file = match &mut self.file {
+            Some(file) => file,
+            None if self.rows.is_empty() => return Ok(()),
+            file => file.insert(OpenOptions::new().write(true).create(true).truncate(true).open(&self.path)?),
+        };
         let mut written = 0;
         let ended = loop {
             if written == self.rows.len() {
                 break Ok(());
             }
-            match self.file.write(&self.rows[written..]) {
+            match file.write(&self.rows[written..]) {
                 Ok(0) => break Err(io::ErrorKind::WriteZero.into()),
                 Ok(count) => written += count,
                 Err(error) if error.kind() == io::ErrorKind::Interrupted => {}
@@ -53,7 +57,7 @@ impl Write for Rows {
         self.length += whole as u64;
         if ended.is_err() {
             // The part of a row that still had room.
-            let _ = self.file.set_len(self.length);
+            let _ = file.set_len(self.length);
         }
         self.rows.clear();
         ended

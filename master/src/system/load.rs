@@ -18,6 +18,7 @@ use crate::connect::connected::{Bridge, Connected, couple, instantiate};
 use crate::connect::isolate::{self, Isolated};
 use crate::error::Error;
 use crate::files::sha256;
+use crate::results::belief::Scale;
 use crate::results::job::{Job, Origin};
 use crate::results::provenance::Provenance;
 use crate::results::scene::Scene;
@@ -92,6 +93,7 @@ impl Opened {
             irregularity_seed: None,
             chosen: Vec::new(),
             choice: None,
+            scale: Scale::default(),
             scene: Scene::default(),
             provenance: Provenance::default(),
         };
