@@ -4,7 +4,7 @@
 
 use ttb_import::{Files, Format, Input, read_matrix};
 
-const MATRICES: [(&str, &str); 6] = [
+const MATRICES: [(&str, &str); 9] = [
     (
         "a.mtx",
         "%%MatrixMarket matrix coordinate real symmetric\n% c\n3 3 5\n1 1 4\n2 1 -1e0\n2 2 5.0\n3 2 -2.5\n3 3 6\n",
@@ -21,6 +21,17 @@ const MATRICES: [(&str, &str); 6] = [
         "f.matrix",
         "t\n 6 1 1 4 1\nRUA 3 3 7 0\n(4I3) (7I2) (1P,2D10.2) (E9.2)\nF   1   0\n  1  3  6  8\n 1 2 1 2 3 2 3\n\
          \x20 4.00D+00 -1.00D+00\n -1.00D+00  5.00D+00\n -2.50D+00 -2.50D+00\n  6.00D+00\n 1.00E+00\n",
+    ),
+    ("g.mtx", "%%MatrixMarket matrix array real general\n3 3\n4\n-1e0\n0\n-1\n5\n-2.5\n0\n-2.5\n6\n"),
+    (
+        "h.pch",
+        "$ t\nDMIG    KAAX           0       6       2       0\nDMIG*   KAAX                           1               5\n\
+         *                              1               5 4.0D+00\n*                              2               3-1.0D+00\n\
+         DMIG*   KAAX                           2               3\n*                              2               3 5.0D+00\n",
+    ),
+    (
+        "i.hb",
+        "t\n 5 1 1 3\nRUA 3 3 7 0\n(4I9) (7I9) (3E25.16)\n 1 3 6 8\n 1 2 1 2 3 2 3\n 4.0 -1.0 -1.0\n 5. -2.5 -2.5\n 6.\n",
     ),
 ];
 
@@ -127,12 +138,12 @@ fn peak() -> u64 {
 fn no_mutation_breaks_a_reader() {
     let rounds: usize = std::env::var("TTB_FUZZ").ok().and_then(|text| text.parse().ok()).unwrap_or(30_000);
     let mut random = Random(std::env::var("TTB_FUZZ_SEED").ok().and_then(|s| s.parse().ok()).unwrap_or(88_172_645_463));
-    let formats = [Format::MatrixMarket, Format::Triplets, Format::Labels, Format::HarwellBoeing];
+    let formats = [Format::MatrixMarket, Format::Triplets, Format::Labels, Format::HarwellBoeing, Format::Dmig];
     let (mut read, mut refused) = (0, 0);
     for _ in 0..rounds {
         let (name, text) = MATRICES[random.below(MATRICES.len())];
         let bytes = mutate(text.as_bytes(), &mut random);
-        let format = if random.below(4) == 0 { Some(formats[random.below(4)]) } else { None };
+        let format = if random.below(4) == 0 { Some(formats[random.below(formats.len())]) } else { None };
         let size = if random.below(4) == 0 { Some(3) } else { None };
         match read_matrix(&Input::bytes(name, bytes), format, size, None) {
             Ok(done) => {
