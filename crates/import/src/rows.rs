@@ -89,13 +89,15 @@ pub(crate) fn supports(input: &Input, target: &Target<'_>, report: &mut Report) 
     let x = table.needs("x", report)?;
     let weights = Weights::new(&table, target, report)?;
     let mut all: Vec<(f64, (u32, f64))> = Vec::new();
+    let mut empty = true;
     while table.advance(report)? {
+        empty = false;
         let x = table.number(x, report)?;
         if let (Some(x), Some(weight)) = (x, weights.read(&mut table, target, report)?) {
             all.push((x, weight));
         }
     }
-    if all.is_empty() && report.problems.is_empty() {
+    if empty {
         report.whole("there must be at least one support", "no line of data");
     }
     all.sort_by(|a, b| a.0.total_cmp(&b.0));

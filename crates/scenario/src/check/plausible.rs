@@ -55,6 +55,15 @@ pub(super) fn check(pieces: &Pieces, resolved: &Resolved, report: &mut Report) {
     if let Some(Damping::Rayleigh { ratio, .. } | Damping::Modal { ratio, .. }) = &pieces.damping {
         all.positive("damping.ratio", "$.bridge.damping.ratio", *ratio);
     }
+    if let Some(Structure::Matrices { files, .. }) = &pieces.structure
+        && files.points.is_none()
+    {
+        let path = "$.bridge.structure.files.points";
+        let text = format!(
+            "{path}: there is no file of points: results will have no displacement and acceleration of the deck"
+        );
+        report.note(Warning::at(path, text));
+    }
     let own = !matches!(resolved.structure, None | Some(StructureSpec::Matrices { .. } | StructureSpec::Stored));
     if own && pieces.has_points && pieces.points.is_empty() {
         let text = "$.bridge.points: there is no monitored point: results will have no displacement and acceleration of \
