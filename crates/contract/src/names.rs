@@ -26,8 +26,14 @@ pub fn sibling(name: &str, quantity: &str) -> String {
 /// The output with the mean of a force over a step: `support[3].mean_force` for `support[3].force`. A name that ends in none
 /// of the forces is taken for a vertical one.
 pub fn mean_force(force: &str) -> String {
-    let component = Component::ALL.into_iter().find(|c| force.ends_with(&format!(".{}", c.force())));
-    sibling(force, component.unwrap_or(Component::Vertical).mean_force())
+    sibling(force, Component::of_force(force).unwrap_or_default().mean_force())
+}
+
+/// The force whose mean over a step a name means: `support[3].force` for `support[3].mean_force`; none if it means no mean.
+pub fn instant_force(mean: &str) -> Option<String> {
+    let (_, last) = mean.rsplit_once('.')?;
+    let component = Component::ALL.into_iter().find(|component| component.mean_force() == last)?;
+    Some(sibling(mean, component.force()))
 }
 
 #[cfg(test)]
@@ -47,6 +53,8 @@ mod tests {
         assert_eq!(mean_force("support[3].force"), "support[3].mean_force");
         assert_eq!(mean_force("support[3].moment_x"), "support[3].mean_moment_x");
         assert_eq!(mean_force("Track.load"), "Track.mean_force");
+        assert_eq!(instant_force("support[3].mean_moment_x").as_deref(), Some("support[3].moment_x"));
+        assert_eq!((instant_force("support[3].force"), instant_force("mean_force")), (None, None));
         assert_eq!(sibling("support[3].force", "displacement"), "support[3].displacement");
     }
 }

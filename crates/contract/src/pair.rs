@@ -57,9 +57,8 @@ impl<T: Model, B: Model> Pair<T, B> {
 
 /// The port of a support's force, by its name.
 fn port(force: &str, axle_load: f64) -> Option<Port> {
-    let (support, quantity) = parse_support(force)?;
-    let component = Component::ALL.into_iter().find(|component| component.force() == quantity)?;
-    Some(Port::new(support, component, axle_load))
+    let (support, _) = parse_support(force)?;
+    Some(Port::new(support, Component::of_force(force)?, axle_load))
 }
 
 /// Value references of names.

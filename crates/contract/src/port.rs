@@ -17,6 +17,12 @@ impl Component {
     /// All components, in the order of an interface.
     pub const ALL: [Self; 3] = [Self::Vertical, Self::Lateral, Self::Roll];
 
+    /// The component whose force a name ends in: `support[3].force_y`; none if it ends in none.
+    pub fn of_force(name: &str) -> Option<Self> {
+        let last = name.rsplit('.').next().unwrap_or(name);
+        Self::ALL.into_iter().find(|component| component.force() == last)
+    }
+
     /// Last part of the force's name.
     pub const fn force(self) -> &'static str {
         match self {

@@ -6,7 +6,7 @@
 
 use std::collections::HashMap;
 
-use ttb_contract::names::sibling;
+use ttb_contract::names::{instant_force, sibling};
 use ttb_contract::{Component, Known, Port, Ports};
 use ttb_fmi::description::ModelDescription;
 
@@ -55,10 +55,9 @@ pub fn in_order(assigned: &mut Assigned, train_track: &ModelDescription, axle_lo
     ports
 }
 
-/// By the last part of a force's name; vertical if it tells nothing.
+/// By the name of the force or of its mean; vertical if it tells nothing.
 fn component(force: &str) -> Component {
-    let last = force.rsplit('.').next().unwrap_or(force);
-    Component::ALL.into_iter().find(|component| component.force() == last).unwrap_or_default()
+    Component::of_force(force).or_else(|| Component::of_force(&instant_force(force)?)).unwrap_or_default()
 }
 
 fn by_names(forces: &[String], motions: &[String]) -> Vec<[Option<usize>; 2]> {
