@@ -85,6 +85,15 @@ def test_a_held_force_on_the_bridge_is_the_mean_over_the_step(r1):
     assert close(*rows)
 
 
+def test_a_held_force_on_the_bridge_may_be_told_as_end_value(r1):
+    """`input_meaning` 2 of Bridge.fmu: the straight line to it, accelerations included; derivatives, where set, win."""
+    fmu = r1.bridge
+    expected = run(fmu, fmu.names("input"), 1e5, with_derivatives)
+    assert close(run(fmu, fmu.names("input"), 1e5, the_end, 2), expected)
+    assert close(run(fmu, fmu.names("input"), 1e5, with_derivatives, 2), expected)
+    assert not close(run(fmu, fmu.names("input"), 1e5, the_end, 1), expected)
+
+
 def test_the_mean_force_is_the_mean_of_begin_and_end(r1):
     """`support[i].mean_force` over a step that is not divided."""
     fmu = r1.train_track

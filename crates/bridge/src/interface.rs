@@ -1,6 +1,6 @@
 //! The bridge's interface list: names and order are the contract with the train–track side and with every master.
 
-use ttb_contract::{Interface, Variable};
+use ttb_contract::{Interface, Kind, Variable};
 use ttb_scenario::spec::BridgeSpec;
 
 use crate::law::ratio;
@@ -21,7 +21,28 @@ pub struct Parameters {
     pub gamma: f64,
     /// Newmark's β.
     pub beta: f64,
+    /// What a held force means: 1 or 2, see [`Parameters::held`].
+    pub input_meaning: f64,
 }
+
+/// What a force without rate means over a step.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Held {
+    /// Its mean.
+    #[default]
+    Mean,
+    /// Its value at the end.
+    End,
+}
+
+/// Items of the enumeration parameter `input_meaning`, in the order of [`Held`].
+const INPUT_MEANING: &[(&str, &str)] = &[
+    ("mean", "the value is the mean over the step: for means, and for masters that take one pass"),
+    (
+        "end",
+        "the value belongs to the end of the step, the force runs there on a straight line: for masters that iterate",
+    ),
+];
 
 /// The list for a structure.
 pub fn list(spec: &BridgeSpec, structure: &Structure) -> Interface {
@@ -67,6 +88,12 @@ pub fn list(spec: &BridgeSpec, structure: &Structure) -> Interface {
             spec.newmark.beta,
             "Newmark's beta, positive; unconditionally stable from gamma/2 on",
         ),
+        Variable::parameter_of(
+            "input_meaning",
+            Kind::Enumeration(INPUT_MEANING),
+            1.0,
+            "What a force without derivative means over a step",
+        ),
     ];
     Interface::new(forces.collect(), outputs, parameters)
 }
@@ -74,8 +101,15 @@ pub fn list(spec: &BridgeSpec, structure: &Structure) -> Interface {
 impl Parameters {
     /// Reads the group of parameters.
     pub fn read(group: &[f64]) -> Option<Self> {
-        let &[damping_ratio, stiffness_factor, mass_factor, step_size, gamma, beta] = group else { return None };
-        Some(Self { damping_ratio, stiffness_factor, mass_factor, step_size, gamma, beta })
+        let &[damping_ratio, stiffness_factor, mass_factor, step_size, gamma, beta, input_meaning] = group else {
+            return None;
+        };
+        Some(Self { damping_ratio, stiffness_factor, mass_factor, step_size, gamma, beta, input_meaning })
+    }
+
+    /// What a held force means.
+    pub fn held(&self) -> Held {
+        if self.input_meaning == 2.0 { Held::End } else { Held::Mean }
     }
 
     /// The first one that cannot be: its name, value and rule.
@@ -88,6 +122,7 @@ impl Parameters {
             ("step_size", self.step_size, positive(self.step_size), "positive"),
             ("gamma", self.gamma, (0.5..=1.0).contains(&self.gamma), "between 0.5 and 1"),
             ("beta", self.beta, positive(self.beta), "positive"),
+            ("input_meaning", self.input_meaning, [1.0, 2.0].contains(&self.input_meaning), "1 (mean) or 2 (end)"),
         ];
         let (name, value, _, rule) = rules.into_iter().find(|(_, _, possible, _)| !possible)?;
         Some(format!("parameter {name} is {value}; it must be {rule}"))

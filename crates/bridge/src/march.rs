@@ -4,10 +4,11 @@
 //!
 //! ```text
 //! with rates    f(t + iτ) = v + iτ v̇                        the polynomial at the sub-step's end
-//! held          f(t + iτ) = 2v − f(t + (i−1)τ),  f(t) = f_n   v is the sub-step's mean
+//! held, mean    f(t + iτ) = 2v − f(t + (i−1)τ),  f(t) = f_n   v is the sub-step's mean
+//! held, end     f(t + iτ) = f_n + (v − f_n) i/m               v is the value at the end
 //! ```
 //!
-//! For γ = 1/2, β = 1/4 the second line is the trapezoidal rule in (u, u̇) under the mean force v: u and u̇ are second
+//! For γ = 1/2, β = 1/4 the line of the mean is the trapezoidal rule in (u, u̇) under the mean force v: u and u̇ are second
 //! order whatever f_n was. ü then rings about its mean and is no output; (u̇(t + h) − u̇(t))/h is.
 
 use std::sync::Arc;
@@ -17,6 +18,7 @@ use ttb_dynamics::newmark::Motion;
 use ttb_dynamics::pool::Pool;
 use ttb_scenario::limits::MOST_SUBSTEPS;
 
+use crate::interface::Held;
 use crate::law::Law;
 use crate::prepared::Prepared;
 use crate::state::{Data, Pending, State};
@@ -34,6 +36,16 @@ pub struct Forces<'a> {
     pub values: &'a [f64],
     /// v̇, N/s; `None`: held.
     pub rates: Option<&'a [f64]>,
+    /// What a held value means.
+    pub held: Held,
+}
+
+impl Forces<'_> {
+    /// Whether the forces at the end of the step are known ones, not those that a mean asks for: then the acceleration there
+    /// is an output.
+    pub fn end_is_known(&self) -> bool {
+        self.rates.is_some() || self.held == Held::End
+    }
 }
 
 /// What the outside sees of a macro step.
@@ -153,6 +165,14 @@ impl March {
                     let time = if i == count { h } else { i as f64 * size };
                     let ends = forces.values.iter().zip(rates).map(|(v, rate)| v + time * rate);
                     new.force.iter_mut().zip(ends).for_each(|(f, end)| *f = end);
+                }
+                None if forces.held == Held::End => {
+                    let part = i as f64 / count as f64;
+                    let ends = old.force.iter().zip(forces.values).map(|(begin, v)| begin + part * (v - begin));
+                    new.force.iter_mut().zip(ends).for_each(|(f, end)| *f = end);
+                    if i == count {
+                        new.force.copy_from_slice(forces.values);
+                    }
                 }
                 None => new.force.iter_mut().zip(forces.values).for_each(|(f, v)| *f = 2.0 * v - *f),
             }

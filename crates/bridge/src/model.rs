@@ -8,7 +8,7 @@ use ttb_dynamics::newmark::Motion;
 use ttb_dynamics::pool::Pool;
 use ttb_scenario::spec::{BridgeSpec, StructureSpec};
 
-use crate::interface::{self, Parameters};
+use crate::interface::{self, Held, Parameters};
 use crate::law::ratio;
 use crate::march::{Forces, March, Seen};
 use crate::prepared::Prepared;
@@ -40,7 +40,7 @@ pub struct Bridge {
 enum Acceleration {
     /// ü of the state.
     State,
-    /// (u̇ − u̇₀)/h, with held inputs.
+    /// (u̇ − u̇₀)/h, where a held input is the mean.
     Mean(f64),
 }
 
@@ -93,6 +93,11 @@ impl Bridge {
 
     fn structure(&self) -> &Structure {
         &self.prepared.structure
+    }
+
+    /// What a held force means under the parameters in force.
+    fn held(&self) -> Held {
+        self.parameters.map_or(Held::Mean, |parameters| parameters.held())
     }
 
     /// What the user should know of this bridge, a sentence each: rounding that shows, a reduced model that missed its
@@ -223,14 +228,15 @@ impl Model for Bridge {
     fn build(&mut self, values: &Values, _start: f64) -> Result<(), ModelError> {
         let group = &values.all[self.interface.parameters()];
         let parameters =
-            Parameters::read(group).ok_or_else(|| ModelError("bridge: six parameters are needed".into()))?;
+            Parameters::read(group).ok_or_else(|| ModelError("bridge: seven parameters are needed".into()))?;
         if self.parameters == Some(parameters) {
             return Ok(());
         }
         if let Some(problem) = parameters.impossible() {
             return Err(ModelError(problem));
         }
-        let Parameters { damping_ratio, stiffness_factor, mass_factor, step_size, gamma, beta } = parameters;
+        let Parameters { damping_ratio, stiffness_factor, mass_factor, step_size, gamma, beta, input_meaning: _ } =
+            parameters;
         let law = self.structure().law(damping_ratio, stiffness_factor, mass_factor)?;
         self.march.set(&self.prepared, law, [step_size, gamma, beta])?;
         self.parameters = Some(parameters);
@@ -269,8 +275,10 @@ impl Model for Bridge {
         let rates = values.has_rates.then_some(&values.rates[..]);
         let mut state = self.buffer();
         let data = only_holder(&mut state)?;
-        self.march.run(&self.prepared, &self.state, Forces { values: &values.all[inputs], rates }, h, data)?;
-        self.read_out(if values.has_rates { Acceleration::State } else { Acceleration::Mean(h) }, values);
+        let forces = Forces { values: &values.all[inputs], rates, held: self.held() };
+        let acceleration = if forces.end_is_known() { Acceleration::State } else { Acceleration::Mean(h) };
+        self.march.run(&self.prepared, &self.state, forces, h, data)?;
+        self.read_out(acceleration, values);
         self.accept(state);
         self.last_step = h;
         Ok(())
@@ -298,9 +306,9 @@ impl Model for Bridge {
         let (mut state, h) = (self.buffer(), self.last_step);
         let data = only_holder(&mut state)?;
         let constant = vec![0.0; seed.len()];
-        let forces = Forces { values: seed, rates: has_rates.then_some(&constant[..]) };
+        let forces = Forces { values: seed, rates: has_rates.then_some(&constant[..]), held: self.held() };
+        let acceleration = if forces.end_is_known() { Acceleration::State } else { Acceleration::Mean(h) };
         self.march.run(&self.prepared, &self.rest, forces, h, data)?;
-        let acceleration = if has_rates { Acceleration::State } else { Acceleration::Mean(h) };
         read_out(&self.prepared.structure, self.march.law().stiffness, &self.march.seen, acceleration, out);
         self.pool.give(&state);
         Ok(())
