@@ -23,7 +23,7 @@ pub mod settings;
 mod trial;
 pub mod work;
 
-pub use adapters::{Adapted, Joined, Lacks, Shape, StationError, Stations};
+pub use adapters::{Adapted, Joined, Lacks, Place, Shape, StationError, Stations, Watch};
 pub use error::IterationError;
 pub use report::{Outcome, Report, StepInfo};
 pub use scheme::Coupling;

@@ -8,6 +8,7 @@ use ttb_contract::{Failure, Signal, Subsystem};
 
 use crate::adapters::stations::Stations;
 use crate::adapters::velocities::Velocities;
+use crate::adapters::watch::Watch;
 
 /// A subsystem, its stations, its missing velocities.
 pub struct Adapted<S> {
@@ -18,6 +19,9 @@ pub struct Adapted<S> {
     forces: Vec<f64>,
     rates: Vec<f64>,
     motion: Vec<f64>,
+    /// Places of interest, and how many outputs of its own are recorded before theirs.
+    watch: Option<Watch>,
+    recorded: usize,
 }
 
 /// How a subsystem is adapted.
@@ -36,7 +40,8 @@ impl<S: Subsystem> Adapted<S> {
     /// As it is.
     pub fn plain(inner: S) -> Self {
         let none = Vec::new;
-        Self { inner, stations: None, velocities: None, forces: none(), rates: none(), motion: none() }
+        let (forces, rates, motion) = (none(), none(), none());
+        Self { inner, stations: None, velocities: None, forces, rates, motion, watch: None, recorded: 0 }
     }
 
     /// With what it lacks made up for; `h` is the size of the steps to come, s.
@@ -44,7 +49,13 @@ impl<S: Subsystem> Adapted<S> {
         let n = lacks.points * lacks.components;
         let velocities = lacks.velocities.then(|| Velocities::new(n, h));
         let (forces, rates, motion) = (vec![0.0; n], vec![0.0; n], vec![0.0; 2 * n]);
-        Self { inner, stations: lacks.stations, velocities, forces, rates, motion }
+        Self { inner, stations: lacks.stations, velocities, forces, rates, motion, watch: None, recorded: 0 }
+    }
+
+    /// Records also the motion at places of interest.
+    #[must_use]
+    pub fn watched(self, watch: Watch) -> Self {
+        Self { watch: Some(watch), ..self }
     }
 
     /// The subsystem itself.
@@ -83,9 +94,18 @@ impl<S: Subsystem> Subsystem for Adapted<S> {
 
     fn get_outputs(&mut self, outputs: &mut [f64]) -> Result<(), Failure> {
         let velocities = self.velocities.as_ref();
-        let Some(stations) = &self.stations else { return Self::own_motion(&mut self.inner, velocities, outputs) };
-        Self::own_motion(&mut self.inner, velocities, &mut self.motion)?;
-        stations.motions(&self.motion, outputs);
+        let own = match &self.stations {
+            None => {
+                Self::own_motion(&mut self.inner, velocities, outputs)?;
+                &*outputs
+            }
+            Some(stations) => {
+                Self::own_motion(&mut self.inner, velocities, &mut self.motion)?;
+                stations.motions(&self.motion, outputs);
+                &self.motion
+            }
+        };
+        self.watch.iter_mut().for_each(|watch| watch.see(own));
         Ok(())
     }
 
@@ -107,6 +127,7 @@ impl<S: Subsystem> Subsystem for Adapted<S> {
     }
 
     fn step(&mut self, t: f64, h: f64, may_restore: bool) -> Result<(), Failure> {
+        self.watch.iter_mut().for_each(|watch| watch.begin(h));
         self.inner.step(t, h, may_restore)?;
         if let Some(velocities) = &mut self.velocities {
             self.inner.get_outputs(&mut velocities.end)?;
@@ -118,11 +139,13 @@ impl<S: Subsystem> Subsystem for Adapted<S> {
     /// Made-up velocities belong to the state.
     fn save(&mut self) -> Result<(), Failure> {
         self.velocities.iter_mut().for_each(Velocities::save);
+        self.watch.iter_mut().for_each(Watch::save);
         self.inner.save()
     }
 
     fn restore(&mut self) -> Result<(), Failure> {
         self.velocities.iter_mut().for_each(Velocities::restore);
+        self.watch.iter_mut().for_each(Watch::restore);
         self.inner.restore()
     }
 
@@ -149,7 +172,9 @@ impl<S: Subsystem> Subsystem for Adapted<S> {
             velocities.start();
         }
         let (forces, rates, motion) = (self.forces.clone(), self.rates.clone(), self.motion.clone());
-        Ok(Some(Box::new(Adapted { inner, stations: self.stations.clone(), velocities, forces, rates, motion })))
+        let stations = self.stations.clone();
+        let (watch, recorded) = (None, 0);
+        Ok(Some(Box::new(Adapted { inner, stations, velocities, forces, rates, motion, watch, recorded })))
     }
 
     fn can_derive(&self) -> bool {
@@ -178,11 +203,18 @@ impl<S: Subsystem> Subsystem for Adapted<S> {
     }
 
     fn record(&mut self, wanted: &dyn Fn(&Signal) -> bool) -> Vec<Signal> {
-        self.inner.record(wanted)
+        let mut signals = self.inner.record(wanted);
+        self.recorded = signals.len();
+        let watched = self.watch.as_mut().map(|watch| watch.record(&signals, wanted));
+        signals.extend(watched.into_iter().flatten());
+        signals
     }
 
     fn read(&mut self, row: &mut [f64]) -> Result<(), Failure> {
-        self.inner.read(row)
+        let (own, watched) = row.split_at_mut(self.recorded.min(row.len()));
+        self.inner.read(own)?;
+        self.watch.iter().for_each(|watch| watch.read(watched));
+        Ok(())
     }
 
     fn name(&self) -> &str {

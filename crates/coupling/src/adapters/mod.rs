@@ -4,7 +4,9 @@ mod adapted;
 mod joined;
 mod stations;
 mod velocities;
+mod watch;
 
 pub use adapted::{Adapted, Lacks};
 pub use joined::Joined;
 pub use stations::{Shape, StationError, Stations};
+pub use watch::{Place, Watch};
