@@ -18,7 +18,7 @@ use crate::problem::{MUST_FIT, Problems, Report, Warning};
 use crate::settings::Setting;
 use crate::spec::{BridgeSpec, StructureSpec, TrainTrackSpec};
 use crate::step::Steps;
-use crate::types::{Car, CouplingSettings, Scenario};
+use crate::types::{Car, Scenario};
 use crate::{check, json, passage, resolve, schema, settings, walk};
 
 /// A scenario without problems.
@@ -38,7 +38,8 @@ pub struct Checked {
     pub peaks: [f64; 2],
     /// The same as values: of which place, which quantity, what is usual. Later findings stand in `warnings` alone.
     pub findings: Vec<Warning>,
-    /// SHA-256 (hexadecimal) of the two specs and the coupling settings as JSON and of all imported files: of all that
+    /// SHA-256 (hexadecimal) of the two specs, the coupling settings and the FMUs' parameters as JSON and of all imported
+    /// files: of all that
     /// decides the result, not of the file's layout, titles, or the choice of output.
     pub hash: String,
     /// Static load of one axle, N, the largest of all cars: the scale of the coupling's tolerance.
@@ -55,7 +56,7 @@ impl Checked {
     /// Takes other steps.
     pub fn set_steps(&mut self, steps: Steps) {
         (self.train_track.step, self.train_track.substeps, self.bridge.step) = (steps.step, steps.substeps, steps.step);
-        self.hash = hash(&self.train_track, &self.bridge, &self.scenario.coupling);
+        self.hash = hash(&self.train_track, &self.bridge, &self.scenario);
     }
 }
 
@@ -124,6 +125,13 @@ pub fn from_str_with(text: &str, base_dir: &Path, file_name: &str, settings: &[S
         return Err(report.into_problems());
     };
     check::chosen_steps(&train_track, &mut report);
+    if scenario.time.step.given().is_none() && !scenario.fmus.train_track.parameters.is_empty() {
+        report.problem(
+            "$.time.step",
+            "must be a number where fmus.train_track gives parameters: a step is chosen without them",
+            "auto",
+        );
+    }
     if !report.problems.is_empty() {
         return Err(report.into_problems());
     }
@@ -131,7 +139,7 @@ pub fn from_str_with(text: &str, base_dir: &Path, file_name: &str, settings: &[S
     Ok(Checked {
         chosen,
         peaks,
-        hash: hash(&train_track, &bridge, &scenario.coupling),
+        hash: hash(&train_track, &bridge, &scenario),
         axle_load: train_track.cars.iter().map(Car::axle_load).fold(0.0, f64::max),
         scenario,
         train_track,
@@ -158,10 +166,15 @@ pub fn read_as<T: DeserializeOwned>(text: &str, schema: &Value, file_name: &str)
     Err(report.into_problems())
 }
 
-fn hash(train_track: &TrainTrackSpec, bridge: &BridgeSpec, coupling: &CouplingSettings) -> String {
+fn hash(train_track: &TrainTrackSpec, bridge: &BridgeSpec, scenario: &Scenario) -> String {
+    let Scenario { coupling, fmus, .. } = scenario;
     let mut digest = Digesting(Sha256::new());
     // neither the specs nor this writer can fail to be written
-    let written = serde_json::to_writer(&mut digest, &(train_track, bridge, coupling));
+    let written = if fmus.is_empty() {
+        serde_json::to_writer(&mut digest, &(train_track, bridge, coupling))
+    } else {
+        serde_json::to_writer(&mut digest, &(train_track, bridge, coupling, fmus))
+    };
     debug_assert!(written.is_ok());
     if let StructureSpec::Matrices { files, folder, .. } = &bridge.structure {
         for file in files.names() {

@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 use super::bridge::Bridge;
 use super::coupling::CouplingSettings;
 use super::csv::Csv;
+use super::fmus::Fmus;
 use super::irregularity::Irregularity;
 use super::time::Time;
 use super::track::Track;
@@ -103,4 +104,7 @@ pub struct Scenario {
     /// What the results hold.
     #[serde(default)]
     pub output: Output,
+    /// Parameters of the FMUs.
+    #[serde(default, skip_serializing_if = "Fmus::is_empty")]
+    pub fmus: Fmus,
 }

@@ -48,7 +48,13 @@ impl<'a> Walker<'a> {
     }
 
     fn object(&mut self, schema: &'a Value, map: &serde_json::Map<String, Value>, path: &str) {
-        let Some(properties) = schema["properties"].as_object() else { return };
+        let Some(properties) = schema["properties"].as_object() else {
+            // Keys of the user's own, all of one kind.
+            let own = schema["additionalProperties"].is_object().then_some(&schema["additionalProperties"]);
+            let each = own.into_iter().flat_map(|each| map.iter().map(move |(key, value)| (each, key, value)));
+            each.for_each(|(each, key, value)| self.check(each, value, &format!("{path}.{key}")));
+            return;
+        };
         for (key, value) in map {
             match properties.get(key) {
                 Some(property) => self.check(property, value, &format!("{path}.{key}")),
