@@ -34,6 +34,8 @@ pub struct ModelDescription {
     pub defined_units: HashSet<String>,
     /// Names of the log categories.
     pub log_categories: Vec<String>,
+    /// Items of the enumerations, with their numbers, by the type's name.
+    pub enumerations: HashMap<String, Vec<(String, i32)>>,
     /// All variables in the order of the file.
     pub variables: Vec<ScalarVariable>,
     by_name: HashMap<String, usize>,
@@ -114,6 +116,8 @@ pub struct ScalarVariable {
     pub start: Option<String>,
     /// Unit, its own or its declared type's.
     pub unit: Option<String>,
+    /// Name of its declared type.
+    pub declared_type: Option<String>,
 }
 
 impl ModelDescription {

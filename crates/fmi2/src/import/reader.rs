@@ -20,8 +20,6 @@ struct Reading {
     co_simulation: bool,
     /// Unit of each declared Real type.
     type_units: HashMap<String, String>,
-    /// Declared type of the variables that have one, by index.
-    declared: Vec<(usize, String)>,
     /// Name of the Unit or SimpleType being read.
     current: String,
 }
@@ -52,6 +50,10 @@ impl Reading {
             }
             (_, ["TypeDefinitions", "SimpleType"], "Real") => {
                 e.attribute("unit").and_then(|unit| self.type_units.insert(self.current.clone(), unit));
+            }
+            (_, ["TypeDefinitions", "SimpleType", "Enumeration"], "Item") => {
+                let item = e.attribute("name").zip(e.number("value"));
+                self.description.enumerations.entry(self.current.clone()).or_default().extend(item);
             }
             (_, ["ModelVariables"], "ScalarVariable") => self.scalar_variable(e)?,
             (_, ["ModelVariables", "ScalarVariable"], kind) => self.variable_type(kind, e),
@@ -132,13 +134,13 @@ impl Reading {
         variable.start = e.attribute("start");
         // An empty one says nothing.
         variable.unit = e.attribute("unit").filter(|unit| !unit.trim().is_empty());
-        self.declared.extend(e.attribute("declaredType").map(|declared| (index, declared)));
+        variable.declared_type = e.attribute("declaredType");
     }
 
     fn finish(mut self) -> Result<ModelDescription, DescriptionError> {
-        for (index, declared) in &self.declared {
-            let variable = &mut self.description.variables[*index];
-            variable.unit = variable.unit.take().or_else(|| self.type_units.get(declared).cloned());
+        for variable in &mut self.description.variables {
+            let declared = || self.type_units.get(variable.declared_type.as_ref()?).cloned();
+            variable.unit = variable.unit.take().or_else(declared);
         }
         if self.co_simulation { Ok(self.description) } else { Err(DescriptionError::NoCoSimulation) }
     }
