@@ -15,7 +15,7 @@ use crate::error::Error;
 use crate::files::write;
 use crate::pictures::slopes::{Kind, Slopes};
 use crate::prepare::auto::decided;
-use crate::prepare::fmus::{Prepared, prepared};
+use crate::prepare::fmus::{self, Prepared, prepared};
 use crate::results::folder::Folder;
 use crate::signals::Stop;
 
@@ -25,6 +25,7 @@ const FILES: [&str; 4] = ["accuracy.md", "accuracy.csv", "accuracy.svg", "accura
 /// The command.
 pub fn accuracy(arguments: &Accuracy, stop: &Stop) -> Result<(), Error> {
     let (checked, _) = decided(arguments.scenario.as_deref(), &arguments.set)?;
+    fmus::only_in_runs(&checked, "ttb accuracy")?;
     let fine = arguments.reference;
     let mut steps = arguments.steps.clone();
     steps.sort_by(|a, b| b.total_cmp(a));

@@ -10,6 +10,7 @@ use crate::signals::Stop;
 /// The command.
 pub fn build(arguments: &Build, stop: &Stop) -> Result<(), Error> {
     let (checked, prepared) = decided(arguments.scenario.as_deref(), &arguments.set)?;
+    fmus::only_in_runs(&checked, "ttb build")?;
     let folder = Folder::claim(&arguments.output, stop)?;
     let built = fmus::build(&checked, prepared, folder.path())?;
     say!("{}\n{}", built.train_track.display(), built.bridge.display());

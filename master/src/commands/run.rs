@@ -182,20 +182,19 @@ fn run_connected(
     let mut progress = Progress::new(&mut tell, stop.flag());
     let clock = || begin.elapsed().as_secs_f64();
     let plan = Plan { axis, wanted: &|column| job.case.keeps(column), clock: &clock };
-    let Connected { train_track, bridge, coupling, parts, probe, warnings, .. } = &mut *connected;
+    let Connected { train_track, bridge, coupling, parts, probe, rules, warnings, .. } = &mut *connected;
     let own = judged.checked.filter(|_| arguments.bridge.is_empty()).map(|checked| &checked.bridge.structure);
+    let repeats = job.case.settings.max_iterations > 1;
     let (name, groups) = (train_track.name().to_string(), bridge.ranges());
     let mut look = |found: &Probe| {
         probe.clone_from(found);
-        match own {
-            Some(structure) => {
-                let told = judge_own(found, &name, structure)?;
-                warn(&told);
-                warnings.extend(told);
-                Ok(())
-            }
-            None => judge(found, &name, parts),
-        }
+        let told = match own {
+            Some(structure) => judge_own(found, &name, structure)?,
+            None => judge(found, &name, parts, *rules, repeats)?,
+        };
+        warn(&told);
+        warnings.extend(told);
+        Ok(())
     };
     let mut coupled = Coupled::new(train_track, bridge, coupling);
     if !arguments.no_probe {

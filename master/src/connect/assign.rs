@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use ttb_coupling::Stations;
+use ttb_coupling::{Stations, Watch};
 use ttb_fmi::description::{ModelDescription, VariableType};
 use ttb_fmi::{FmuInstance, Linear};
 
@@ -33,6 +33,8 @@ pub struct Assigned {
     pub stations: Option<Stations>,
     /// Whether it gives velocities.
     pub velocities: bool,
+    /// What else of its motion is recorded.
+    pub watch: Option<Watch>,
 }
 
 /// What is coupled, as powers of kg, m, s.
@@ -64,7 +66,7 @@ impl Assigned {
     /// Every variable to one of the other side: the train–track side's forces, out of it and into the bridge, and the
     /// bridge's motions, out of it and into the train–track side.
     pub fn one_to_one([forces_out, forces_in]: [Ends; 2], [motions_out, motions_in]: [Ends; 2]) -> Self {
-        Self { forces_in, motions_out, forces_out, motions_in, stations: None, velocities: true }
+        Self { forces_in, motions_out, forces_out, motions_in, stations: None, velocities: true, watch: None }
     }
 }
 
@@ -236,7 +238,8 @@ pub fn assign(
     if more > points {
         warnings.push(format!("{}: {} forces beyond the {points} mapped ones stay 0", bridge.name(), more - points));
     }
-    Ok(Assigned { forces_in, motions_out, forces_out, motions_in, stations, velocities: map.velocity.is_some() })
+    let (velocities, watch) = (map.velocity.is_some(), None);
+    Ok(Assigned { forces_in, motions_out, forces_out, motions_in, stations, velocities, watch })
 }
 
 /// From SI to a variable: by the map's factor, else by the unit it declares.

@@ -10,7 +10,7 @@ use ttb_coupling::{Adapted, Coupling, Joined, Lacks};
 use ttb_fmi::isolate::Isolation;
 use ttb_fmi::{Another, Fmu, FmuError, FmuInstance, FmuSubsystem};
 use ttb_scenario::Checked;
-use ttb_scenario::types::Sending;
+use ttb_scenario::types::{Fmus, Sending};
 use ttb_session::Case;
 
 use super::assign::{Assigned, Ends, assign, places, ranges};
@@ -19,6 +19,8 @@ use super::isolate::{self, Isolated};
 use super::map::{Map, Value};
 use super::parameters;
 use super::ports::in_order;
+use super::probe::Rules;
+use super::watched;
 use crate::error::Error;
 
 /// The bridge side of a run: one FMU or several, each as the iteration wants it.
@@ -40,6 +42,8 @@ pub struct Connected {
     pub probe: Probe,
     /// Whether there may be more instances of every bridge in this process.
     pub several: bool,
+    /// What trial steps are judged by.
+    pub rules: Rules,
 }
 
 /// A bridge FMU that the user gives, or that was built here.
@@ -93,19 +97,31 @@ pub fn connect(
 ) -> Result<Connected, Error> {
     let end = checked.train_track.end;
     let train_track = isolate::open(train_track, isolated.train_track.as_ref())?;
-    let train_track = instantiate(&train_track, "TrainTrack", end, &BTreeMap::new())?;
-    let mut warnings = checked.warnings.clone();
     let ours = Map::default();
     let maps: Vec<&Map> = bridges.iter().map(|given| given.map.unwrap_or(&ours)).collect();
+    let Fmus { train_track: of_track, bridge: of_bridge } = &checked.scenario.fmus;
+    let of_maps = maps.iter().map(|map| &map.train_track_parameters);
+    let of_track = together(&of_track.parameters, of_maps);
+    let mut problems = Vec::new();
+    let train_track = told(instantiate(&train_track, "TrainTrack", end, &of_track), &mut problems)?;
+    let mut warnings = checked.warnings.clone();
     let mut offered = Vec::new();
     for (k, (given, map)) in bridges.iter().zip(&maps).enumerate() {
         let name = if bridges.len() == 1 { "Bridge".to_string() } else { format!("Bridge{}", k + 1) };
-        let bridge = Bridge::open(given.path, &name, isolated.bridge.as_ref(), end, &map.parameters)?;
-        offered.push(Bridge { trusted: trusted && map.roll_back, ..bridge });
+        let parameters = together(&of_bridge.parameters, [&map.parameters]);
+        let bridge = Bridge::open(given.path, &name, isolated.bridge.as_ref(), end, &parameters);
+        let bridge = told(bridge, &mut problems)?;
+        offered.extend(bridge.map(|bridge| Bridge { trusted: trusted && map.roll_back, ..bridge }));
     }
-    let assigned = match &offered[..] {
+    let Some(train_track) = train_track.filter(|_| problems.is_empty()) else {
+        return Err(Error::Input(problems.join("\n")));
+    };
+    let mut missing = watched::points(checked);
+    let assigned: Vec<Assigned> = match &offered[..] {
         [bridge] if bridges[0].map.is_none() => {
-            vec![equal_names(&train_track, &bridge.instance, &mut warnings)?]
+            let assigned = equal_names(&train_track, &bridge.instance, &mut warnings)?;
+            let watch = watched::by_names(&assigned, checked, &mut missing);
+            vec![Assigned { watch, ..assigned }]
         }
         _ => {
             let mut instances: Vec<&mut FmuInstance> = offered.iter_mut().map(|bridge| &mut bridge.instance).collect();
@@ -115,11 +131,20 @@ pub fn connect(
             let ranges = ranges(&maps, &instances, &places, supports)?;
             let each = maps.iter().zip(&instances).zip(ranges.iter().zip(&places));
             let each = each.map(|((map, bridge), (range, places))| {
-                assign(map, train_track.description(), bridge, range, places.as_ref(), supports, &mut warnings)
+                let assigned =
+                    assign(map, train_track.description(), bridge, range, places.as_ref(), supports, &mut warnings)?;
+                let watch = watched::watch(map, checked, range, places.as_ref(), &mut missing);
+                Ok(Assigned { watch, ..assigned })
             });
-            each.collect::<Result<_, _>>()?
+            each.collect::<Result<_, Error>>()?
         }
     };
+    let has = |name: &str| {
+        let output = format!("point[{name}].displacement");
+        offered.iter().any(|bridge| bridge.instance.description().variable(&output).is_some())
+    };
+    missing.retain(|name| !has(name));
+    warnings.extend(watched::told(&missing));
     let parts = offered.into_iter().zip(assigned).collect();
     couple(train_track, parts, &Case::of(checked), checked.scenario.coupling.send, warnings)
 }
@@ -151,7 +176,7 @@ pub fn couple(
         let ports = ports.ok_or_else(|| {
             Error::Input(format!("{name}: a force that counts must be positive, not {} N", case.axle_load))
         })?;
-        let Bridge { instance, another, several, trusted } = bridge;
+        let Bridge { mut instance, another, several, trusted } = bridge;
         if settings.max_iterations > 1 && !(trusted && instance.can_restore()) {
             let cannot =
                 if trusted { "cannot save and restore its state (canGetAndSetFMUstate)" } else { "is not rolled back" };
@@ -169,6 +194,9 @@ pub fn couple(
                 "coupling.send is rate, but {name} cannot interpolate inputs: use auto or mean"
             )));
         }
+        if settings.hold_forces || settings.mean_forces {
+            takes_means(&mut instance)?;
+        }
         let mut side = subsystem(instance, &assigned.forces_in, &assigned.motions_out)?;
         if !rolls_back {
             let (name, ends) = (name.clone(), (assigned.forces_in.clone(), assigned.motions_out.clone()));
@@ -184,6 +212,10 @@ pub fn couple(
         } else {
             let (points, stations) = (assigned.forces_in.names.len(), assigned.stations.clone());
             Adapted::new(side, Lacks { points, components: 1, stations, velocities: !assigned.velocities }, case.step)
+        };
+        let side = match assigned.watch.take() {
+            Some(watch) => side.watched(watch),
+            None => side,
         };
         forces_out.extend(assigned.forces_out.clone());
         let (d, v) = assigned.motions_in.clone().split(ports.positions());
@@ -203,7 +235,16 @@ pub fn couple(
     let bridge = Joined::new(sides)
         .ok_or_else(|| Error::Input("of several bridges every force must have a displacement and a velocity".into()))?;
     let coupling = Coupling::new(bridge.ports().clone(), settings);
-    Ok(Connected { train_track, bridge, coupling, warnings, parts, probe: Probe::default(), several: all_several })
+    Ok(Connected {
+        train_track,
+        bridge,
+        coupling,
+        warnings,
+        parts,
+        probe: Probe::default(),
+        several: all_several,
+        rules: Rules::default(),
+    })
 }
 
 /// The train–track FMU's outputs `….force` replaced by `….mean_force`, which sub-steps send.
@@ -219,6 +260,44 @@ fn means(train_track: &FmuInstance, forces: &mut [String]) -> Result<(), Error> 
         }
     }
     Ok(())
+}
+
+/// Refuses an FMU whose parameter `input_meaning` says that a held force is no mean, where means are sent.
+fn takes_means(bridge: &mut FmuInstance) -> Result<(), Error> {
+    const NAME: &str = "input_meaning";
+    let description = bridge.description();
+    let variable = description.variable(NAME);
+    let items = variable.and_then(|variable| description.enumerations.get(variable.declared_type.as_ref()?)).cloned();
+    let Some(items) = items else { return Ok(()) };
+    let value = bridge.get_number(NAME)?;
+    match items.iter().find(|(_, number)| f64::from(*number) == value) {
+        Some((item, _)) if item != "mean" => Err(Error::Input(format!(
+            "{}: its parameter {NAME} is {item}, but forces are sent as held means here (coupling.send, time.substeps)",
+            bridge.name()
+        ))),
+        _ => Ok(()),
+    }
+}
+
+/// What was made; nothing if its input was refused, which is noted.
+fn told<T>(made: Result<T, Error>, problems: &mut Vec<String>) -> Result<Option<T>, Error> {
+    match made {
+        Err(Error::Input(problem)) => {
+            problems.push(problem);
+            Ok(None)
+        }
+        made => made.map(Some),
+    }
+}
+
+/// Parameters from several places; a later one comes after those before.
+fn together<'a>(
+    first: &BTreeMap<String, Value>,
+    others: impl IntoIterator<Item = &'a BTreeMap<String, Value>>,
+) -> BTreeMap<String, Value> {
+    let mut all = first.clone();
+    all.extend(others.into_iter().flatten().map(|(name, value)| (name.clone(), value.clone())));
+    all
 }
 
 /// One side, by its coupled variables.

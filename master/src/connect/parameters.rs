@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use ttb_fmi::FmuInstance;
-use ttb_fmi::description::{ScalarVariable, VariableType};
+use ttb_fmi::description::{ModelDescription, ScalarVariable, VariableType};
 use ttb_scenario::nearest;
 
 use super::map::Value;
@@ -14,18 +14,7 @@ use crate::error::Error;
 /// # Errors
 /// Names that do not exist or may not be set, values of another type: all of them; or the FMU refuses one.
 pub fn set(instance: &mut FmuInstance, parameters: &BTreeMap<String, Value>) -> Result<(), Error> {
-    let problem = |(name, value): (&String, &Value)| match instance.description().variable(name) {
-        None => {
-            let settable = instance.description().variables.iter().filter(|v| is_settable(v)).map(|v| v.name.as_str());
-            let like = nearest(name, settable).map_or_else(String::new, |like| format!(" (did you mean `{like}`?)"));
-            Some(format!("parameters: it has no variable `{name}`{like}"))
-        }
-        Some(variable) if !is_settable(variable) => {
-            Some(format!("parameters: {name} cannot be set: it is a {} {}", variable.variability, variable.causality))
-        }
-        Some(variable) => misfit(variable, value).map(|kind| format!("parameters: {name} is {kind}, not {value}")),
-    };
-    let problems: Vec<String> = parameters.iter().filter_map(problem).collect();
+    let problems = problems(instance.description(), parameters);
     if !problems.is_empty() {
         return Err(Error::Input(format!("{}: {}", instance.name(), problems.join("\n  "))));
     }
@@ -42,8 +31,24 @@ pub fn set(instance: &mut FmuInstance, parameters: &BTreeMap<String, Value>) -> 
     Ok(())
 }
 
+/// Names that do not exist or may not be set, values of another type: all of them.
+pub fn problems(description: &ModelDescription, parameters: &BTreeMap<String, Value>) -> Vec<String> {
+    let problem = |(name, value): (&String, &Value)| match description.variable(name) {
+        None => {
+            let settable = description.variables.iter().filter(|v| is_settable(v)).map(|v| v.name.as_str());
+            let like = nearest(name, settable).map_or_else(String::new, |like| format!(" (did you mean `{like}`?)"));
+            Some(format!("parameters: it has no variable `{name}`{like}"))
+        }
+        Some(variable) if !is_settable(variable) => {
+            Some(format!("parameters: {name} cannot be set: it is a {} {}", variable.variability, variable.causality))
+        }
+        Some(variable) => misfit(variable, value).map(|kind| format!("parameters: {name} is {kind}, not {value}")),
+    };
+    parameters.iter().filter_map(problem).collect()
+}
+
 /// Whether FMI lets a master set it before initialization: parameters, inputs, and what starts from a value.
-fn is_settable(variable: &ScalarVariable) -> bool {
+pub fn is_settable(variable: &ScalarVariable) -> bool {
     let starts = matches!(variable.initial.as_deref(), Some("exact" | "approx")) || variable.start.is_some();
     match variable.causality.as_str() {
         "parameter" | "input" => true,
@@ -64,15 +69,5 @@ fn misfit(variable: &ScalarVariable, value: &Value) -> Option<&'static str> {
         (VariableType::Enumeration, _) => Some("an enumeration (an integer)"),
         (VariableType::Boolean, _) => Some("a Boolean"),
         (VariableType::String, _) => Some("a String"),
-    }
-}
-
-impl std::fmt::Display for Value {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        match self {
-            Self::Boolean(truth) => truth.fmt(f),
-            Self::Number(number) => number.fmt(f),
-            Self::Text(text) => write!(f, "\"{text}\""),
-        }
     }
 }

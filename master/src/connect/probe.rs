@@ -8,21 +8,61 @@ use ttb_session::error::Refusal;
 
 use super::assign::Assigned;
 
-/// Refuses what was found to be wrong; `parts` are the bridges.
-pub fn judge(probe: &Probe, train_track: &str, parts: &[(String, Assigned)]) -> Result<(), RunError> {
-    if let Some(off) = probe.train_track.filter(|off| !returns(*off)) {
-        return Err(RunError::Refused(Refusal::Subsystem(format!("{train_track}: {}", no_return(off)))));
+/// What is taken for granted of the bridge's side.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Rules {
+    /// It is a deck under a track.
+    #[default]
+    Deck,
+    /// A deck by its names in a system structure: its mass may be that of a model.
+    SystemOfDeck,
+    /// Anything.
+    System,
+}
+
+impl Rules {
+    /// Whether a finding speaks against the run, or is only told.
+    fn refuse(self, mismatch: &Mismatch) -> bool {
+        match self {
+            Self::Deck => true,
+            Self::SystemOfDeck => !matches!(mismatch, Mismatch::Together(excess) if *excess > 0.0),
+            Self::System => false,
+        }
     }
-    if let Some(((name, _), off)) = parts.iter().zip(&probe.bridge).find(|(_, off)| !returns(**off)) {
-        return Err(RunError::Refused(Refusal::NoReturn(format!("{name}: {}", no_return(*off)))));
+}
+
+/// Refuses what was found to be wrong; `parts` are the bridges. What is not against the rules is returned as warnings. States
+/// count only where steps are repeated.
+pub fn judge(
+    probe: &Probe,
+    train_track: &str,
+    parts: &[(String, Assigned)],
+    rules: Rules,
+    repeats: bool,
+) -> Result<Vec<String>, RunError> {
+    let mut warnings = Vec::new();
+    let off = |off: &f64| !returns(*off);
+    match (probe.train_track.filter(off), parts.iter().zip(&probe.bridge).find(|(_, by)| off(by))) {
+        (Some(by), _) if repeats => {
+            return Err(RunError::Refused(Refusal::Subsystem(format!("{train_track}: {}", no_return(by)))));
+        }
+        (_, Some(((name, _), by))) if repeats => {
+            return Err(RunError::Refused(Refusal::NoReturn(format!("{name}: {}", no_return(*by)))));
+        }
+        (of_track, of_bridge) => {
+            let whole = of_track.map(|by| (train_track, by));
+            let all = whole.into_iter().chain(of_bridge.map(|((name, _), by)| (name.as_str(), *by)));
+            warnings.extend(all.map(|(name, by)| format!("{name}: {}; no step is repeated here", no_return(by))));
+        }
     }
-    let problem = |((name, part), response): (&(String, Assigned), &Response)| {
-        let mismatch = response.mismatch()?;
-        Some(format!("{name}: {}", part.says(&mismatch, response)))
-    };
-    let problems: Vec<String> = parts.iter().zip(&probe.responses).filter_map(problem).collect();
+    let mut problems = Vec::new();
+    for ((name, part), response) in parts.iter().zip(&probe.responses) {
+        let Some(mismatch) = response.mismatch() else { continue };
+        let told = format!("{name}: {}", part.says(&mismatch, response));
+        if rules.refuse(&mismatch) { problems.push(told) } else { warnings.push(told) }
+    }
     if problems.is_empty() {
-        return Ok(());
+        return Ok(warnings);
     }
     Err(RunError::Refused(Refusal::Input(format!(
         "{}\nTrial forces before the first step show this. Factors are those of the map: their value = factor · ours in N, m, \

@@ -85,6 +85,17 @@ fn chosen(chosen: &[Chosen]) -> Option<String> {
     Some(chosen.iter().map(one).collect())
 }
 
+/// Refuses parameters of FMUs where no FMU is given them.
+pub fn only_in_runs(checked: &Checked, command: &str) -> Result<(), Error> {
+    if checked.scenario.fmus.is_empty() {
+        return Ok(());
+    }
+    Err(Error::Input(format!(
+        "$.fmus: {command} gives no FMU parameters, only ttb run and ttb export-ssp do: leave it out, or change what the scenario \
+         itself says"
+    )))
+}
+
 /// Writes TrainTrack.fmu and Bridge.fmu into `folder`; `ready` is the bridge, if it is prepared already.
 pub fn build(checked: &Checked, ready: Option<Arc<ttb_bridge::Prepared>>, folder: &Path) -> Result<Built, Error> {
     let ready = ready.map_or_else(|| prepared_bridge(checked), Ok)?;

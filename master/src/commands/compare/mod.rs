@@ -12,6 +12,7 @@ use crate::cli::Compare;
 use crate::error::Error;
 use crate::pictures::figures;
 use crate::prepare::auto::decided;
+use crate::prepare::fmus;
 use crate::results::folder::Folder;
 use crate::results::ran::Watched;
 use crate::signals::Stop;
@@ -25,6 +26,7 @@ const HISTORIES: &str = "histories.csv";
 /// The command.
 pub fn compare(arguments: &Compare, stop: &Stop) -> Result<(), Error> {
     let (checked, _) = decided(arguments.scenario.as_deref(), &arguments.set)?;
+    fmus::only_in_runs(&checked, "ttb compare")?;
     let watched = Watched::new(&checked, arguments.point.as_deref(), arguments.car, arguments.wheel)?;
     let folder = Folder::claim(&arguments.output, stop)?;
     let mut bench = Bench { checked: &checked, watched, budget: f64::INFINITY, stop, quiet: arguments.quiet };

@@ -4,6 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use ttb_coupling::Shape;
 use ttb_fmi::description::ModelDescription;
+pub use ttb_scenario::types::ParameterValue as Value;
 
 /// The place of the number in a name.
 pub const INDEX: &str = "{i}";
@@ -74,18 +75,6 @@ pub enum Interpolation {
     /// Cubics through four stations.
     #[default]
     Cubic,
-}
-
-/// A parameter's value.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(untagged)]
-pub enum Value {
-    /// For a Boolean.
-    Boolean(bool),
-    /// For a Real, an Integer, an enumeration.
-    Number(f64),
-    /// For a String.
-    Text(String),
 }
 
 fn one() -> i64 {

@@ -61,6 +61,9 @@ pub struct Map {
     /// Parameters and start values by name, in the FMU's own units.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub parameters: BTreeMap<String, Value>,
+    /// The same of the train–track FMU.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub train_track_parameters: BTreeMap<String, Value>,
     /// Where it was read, for messages.
     #[serde(skip)]
     pub path: PathBuf,
@@ -104,6 +107,7 @@ impl Default for Map {
             supports: None,
             roll_back: true,
             parameters: BTreeMap::new(),
+            train_track_parameters: BTreeMap::new(),
             path: PathBuf::new(),
         }
     }
