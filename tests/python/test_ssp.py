@@ -220,7 +220,7 @@ BROKEN = {
     "source outside": (swapped('source="resources/Bridge.fmu"', 'source="../Bridge.fmu"'), "leads out of the archive"),
     "no such source": (swapped("resources/Bridge.fmu", "resources/B.fmu"), "the archive has no file resources/B.fmu"),
     "one component": (dropped(r'(?s)<ssd:Component name="Bridge".*?</ssd:Component>'), "1 components; there must be two"),
-    "nested": (swapped("</ssd:Elements>", '<ssd:System name="S"/></ssd:Elements>'), "[@name='S']: systems within systems"),
+    "unknown element": (swapped("</ssd:Elements>", '<ssd:Robot name="R"/></ssd:Elements>'), "[@name='R']: an element Robot is not known"),
     "setting": (swapped('method="auto"', 'method="magic"'), "/Coupling/@method: "),
     "start": (swapped('startTime="0.0"', 'startTime="1"'), "/DefaultExperiment/@startTime: is 1; runs start at 0"),
     "wrong way": (swapped('endElement="Bridge"', 'endElement="TrainTrack"'), "support[1].force is no input but an output"),

@@ -1,23 +1,41 @@
-//! System structures as files: SSP 1.0, *System Structure and Parameterization*.
+//! System structures as files: SSP 1.0 and 2.0, *System Structure and Parameterization*.
 //!
-//! [`pack`] writes an archive of a [`Structure`] and its files, [`read`] gives back the structure of a SystemStructure.ssd,
-//! or everything that is wrong with it, each with its place in the document. What a component's file is and what its
-//! variables mean is not looked at here.
+//! [`pack`] writes an archive of a [`Structure`] and its files. [`read`] gives back the structure of a SystemStructure.ssd,
+//! [`load`] also all documents that it names, [`flatten`] makes components with their values and wires of systems in systems;
+//! or they tell everything that is wrong, each problem with its place in the document. What a component's file is and what
+//! its variables mean is not looked at here.
 
 mod archive;
-mod components;
+mod bindings;
+mod flatten;
+mod graph;
+mod load;
+mod parameters;
 mod problem;
 mod read;
+mod system;
+mod transform;
 mod tree;
 mod types;
+mod uri;
+mod values;
 mod write;
 
 pub use archive::{Content, PackError, Stamp, pack};
+pub use bindings::{read_mapping, read_set};
+pub use flatten::{Flat, Wire, flatten};
+pub use graph::Hop;
+pub use load::{Files, Loaded, load};
+pub use parameters::{Binding, Entry, Enumeration, Mapping, NamedUnit, Parameter, ParameterSet, Value, Values};
 pub use problem::{Problem, Report};
 pub use read::read;
+pub use transform::Transformation;
 pub use types::{
-    Annotation, BaseUnit, Component, Connection, Connector, Experiment, Kind, STRUCTURE, Structure, System, Type, Unit,
+    Annotation, BaseUnit, Component, Connection, Connector, Experiment, FileKind, Kind, STRUCTURE, SignalReference,
+    Source, Structure, System, Type, Unit,
 };
+pub use uri::Base;
+pub use values::{Bound, Offer};
 pub use write::write;
 
 /// Folder of the components' files.

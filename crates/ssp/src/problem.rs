@@ -40,13 +40,31 @@ impl Report {
         Self { file: file.into(), problems: Vec::new(), more: 0 }
     }
 
+    /// What messages call the file.
+    pub fn file(&self) -> &str {
+        &self.file
+    }
+
     /// Notes a problem.
     pub fn problem(&mut self, place: &str, message: impl Into<String>) {
+        let file = self.file.clone();
+        self.problem_in(file, place, message);
+    }
+
+    /// Notes a problem of another file.
+    pub fn problem_in(&mut self, file: impl Into<String>, place: &str, message: impl Into<String>) {
         if self.problems.len() < LISTED {
-            let (file, place) = (self.file.clone(), place.to_string());
-            self.problems.push(Problem { file, place, message: message.into() });
+            self.problems.push(Problem { file: file.into(), place: place.to_string(), message: message.into() });
         } else {
             self.more += 1;
+        }
+    }
+
+    /// Takes over what was noted of another file.
+    pub fn absorb(&mut self, other: Self) {
+        self.more += other.more;
+        for Problem { file, place, message } in other.problems {
+            self.problem_in(file, &place, message);
         }
     }
 

@@ -1,12 +1,15 @@
 //! SystemStructure.ssd → [`Structure`], or everything that is wrong with it.
 //!
-//! The order of elements and what is not needed here (geometry, enumerations, signal dictionaries that nobody refers to)
-//! are passed over; what would change a result and is not understood is refused.
+//! The order of elements and what is not needed here (geometry, meta data, signatures) are passed over; what would change a
+//! result and is not understood is refused. Of SSP 2.0 everything is read that a co-simulation of FMI 2.0 can have. Files
+//! that the document names are not opened here: see [`crate::load`].
 
-use crate::components::{components, refuse_parameters};
+use crate::parameters::Enumeration;
 use crate::problem::Report;
+use crate::system::system;
+use crate::transform::real;
 use crate::tree::{Element, tree};
-use crate::types::{Annotation, BaseUnit, Connection, Experiment, Structure, System, Unit};
+use crate::types::{Annotation, BaseUnit, Experiment, Structure, System, Unit};
 
 /// Reads the text of a SystemStructure.ssd; `file` is what messages call it.
 ///
@@ -14,81 +17,81 @@ use crate::types::{Annotation, BaseUnit, Connection, Experiment, Structure, Syst
 /// All problems of the document.
 pub fn read(bytes: &[u8], file: &str) -> Result<Structure, Report> {
     let mut report = Report::new(file);
-    let Some(root) = tree(bytes, &mut report) else { return Err(report) };
+    match structure(bytes, &mut report) {
+        Some(structure) if report.is_empty() => Ok(structure),
+        _ => Err(report),
+    }
+}
+
+/// What can be read of a document, with its problems in `report`.
+pub fn structure(bytes: &[u8], report: &mut Report) -> Option<Structure> {
+    let root = tree(bytes, report)?;
     if root.name != "SystemStructureDescription" {
         report.problem("", format!("has the root element {}, not SystemStructureDescription", root.name));
-        return Err(report);
+        return None;
     }
-    let version = root.attribute("version").unwrap_or_default().trim();
-    if !version.starts_with("1.") {
-        report.problem(&root.place, format!("is for SSP {version:?}; only SSP 1 is supported"));
-    }
+    version(&root, report);
     let mut structure = Structure {
         name: root.attribute("name").unwrap_or_default().to_string(),
         description: root.attribute("description").map(str::to_string),
         tool: root.attribute("generationTool").map(str::to_string),
-        units: root.children_of("Units").iter().filter_map(|e| unit(e, &mut report)).collect(),
-        experiment: experiment(&root, &mut report),
+        units: units(&root, report),
+        enumerations: enumerations(&root, report),
+        experiment: experiment(&root, report),
         system: System::default(),
     };
     match root.child("System") {
-        Some(element) => structure.system = system(element, &mut report),
+        Some(element) => structure.system = system(element, report),
         None => report.problem(&root.place, "has no element System"),
     }
-    if report.is_empty() { Ok(structure) } else { Err(report) }
+    Some(structure)
 }
 
-fn system(element: &Element, report: &mut Report) -> System {
-    refuse_parameters(element, report);
-    System {
-        name: element.attribute("name").unwrap_or_default().to_string(),
-        description: element.attribute("description").map(str::to_string),
-        components: components(element, report),
-        connections: element.children_of("Connections").iter().filter_map(|e| connection(e, report)).collect(),
+/// SSP 1 and 2 have the same elements for all that is read here.
+pub fn version(root: &Element, report: &mut Report) {
+    let version = root.attribute("version").unwrap_or_default().trim();
+    let major = version.split('.').next().unwrap_or_default();
+    if !matches!(major, "1" | "2") {
+        report.problem(&root.place, format!("is for SSP {version:?}; only SSP 1 and 2 are supported"));
     }
 }
 
-fn connection(element: &Element, report: &mut Report) -> Option<Connection> {
-    let text = |name| element.attribute(name).map(str::to_string);
-    let mut ends = [("startElement", "startConnector"), ("endElement", "endConnector")].map(|(of, connector)| {
-        let name = text(connector);
-        if name.is_none() {
-            report.problem(&element.place, format!("has no attribute {connector}"));
-        }
-        name.map(|name| (text(of), name))
-    });
-    let mut linear = (1.0, 0.0);
-    for child in &element.children {
-        if child.name == "LinearTransformation" {
-            let (factor, offset) = (real(child, "factor", report), real(child, "offset", report));
-            linear = (factor.unwrap_or(1.0), offset.unwrap_or(0.0));
-        } else if child.name.ends_with("Transformation") {
-            report.problem(&child.place, format!("{} is not supported, only LinearTransformation", child.name));
-        }
-    }
-    let suppress_unit_conversion = matches!(element.attribute("suppressUnitConversion"), Some("true" | "1"));
-    Some(Connection {
-        start: ends[0].take()?,
-        end: ends[1].take()?,
-        factor: linear.0,
-        offset: linear.1,
-        suppress_unit_conversion,
-        place: element.place.clone(),
-    })
+/// The units that a document defines. One without BaseUnit is a name only.
+pub fn units(root: &Element, report: &mut Report) -> Vec<Unit> {
+    root.children_of("Units").iter().filter(|e| e.name == "Unit").filter_map(|e| unit(e, report)).collect()
 }
 
 fn unit(element: &Element, report: &mut Report) -> Option<Unit> {
-    let name = element.attribute("name").map(str::to_string);
-    let (Some(name), Some(base)) = (name, element.child("BaseUnit")) else {
-        report.problem(&element.place, "a unit needs a name and an element BaseUnit");
+    let Some(name) = element.attribute("name").filter(|name| !name.trim().is_empty()) else {
+        report.problem(&element.place, "a unit needs a name");
         return None;
     };
+    let base = element.child("BaseUnit")?;
     let powers = BaseUnit::NAMES.map(|name| real(base, name, report).unwrap_or(0.0) as i32);
     let factor = real(base, "factor", report).unwrap_or(1.0);
     if factor == 0.0 {
         report.problem(&base.place, "the factor of a unit must not be 0");
     }
-    Some(Unit { name, base: BaseUnit { powers, factor, offset: real(base, "offset", report).unwrap_or(0.0) } })
+    let base = BaseUnit { powers, factor, offset: real(base, "offset", report).unwrap_or(0.0) };
+    Some(Unit { name: name.to_string(), base })
+}
+
+/// The enumerations that a document defines.
+pub fn enumerations(root: &Element, report: &mut Report) -> Vec<Enumeration> {
+    let mut item = |element: &Element| {
+        let number = element.attribute("value").and_then(|text| text.trim().parse().ok());
+        let item = element.attribute("name").map(str::to_string).zip(number);
+        if item.is_none() {
+            report.problem(&element.place, "an item needs a name and a whole number as value");
+        }
+        item
+    };
+    let mut enumeration = |element: &Element| Enumeration {
+        name: element.attribute("name").unwrap_or_default().to_string(),
+        items: element.children.iter().filter(|e| e.name == "Item").filter_map(&mut item).collect(),
+    };
+    let all = root.children_of("Enumerations").iter().filter(|element| element.name == "Enumeration");
+    all.map(&mut enumeration).collect()
 }
 
 fn experiment(root: &Element, report: &mut Report) -> Experiment {
@@ -119,14 +122,4 @@ fn annotation(element: &Element) -> Annotation {
         annotation.place.clone_from(&inner.place);
     }
     annotation
-}
-
-/// A finite number, where there is one.
-fn real(element: &Element, name: &str, report: &mut Report) -> Option<f64> {
-    let text = element.attribute(name)?;
-    let value = text.trim().parse().ok().filter(|value: &f64| value.is_finite());
-    if value.is_none() {
-        report.problem(&element.place, format!("the attribute {name} is no number: {text:?}"));
-    }
-    value
 }

@@ -124,13 +124,15 @@ fn element(start: &BytesStart, open: &[Element], report: &mut Report) -> Element
     element
 }
 
-/// Elements with a name are found by it, annotations by their type, connections by their number.
+/// Elements with a name are found by it, annotations by their type, connections and the like by their number.
 fn place(element: &Element, parent: Option<&Element>) -> String {
     let Some(parent) = parent.filter(|parent| parent.place.len() < PLACE) else { return "…".into() };
     let step = match (element.attribute("name"), element.name.as_str()) {
         (Some(name), _) if !parent.place.is_empty() => format!("[@name='{name}']"),
         (_, "Annotation") => element.attribute("type").map_or_else(String::new, |kind| format!("[@type='{kind}']")),
-        (_, "Connection") => format!("[{}]", parent.children.len() + 1),
+        (_, "Connection" | "ParameterBinding" | "MappingEntry" | "MapEntry") => {
+            format!("[{}]", parent.children.len() + 1)
+        }
         _ => String::new(),
     };
     let step: String = format!("{}{step}", element.name).chars().take(PLACE).collect();

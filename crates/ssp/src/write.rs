@@ -7,7 +7,9 @@ use std::io;
 use quick_xml::Writer;
 use quick_xml::events::{BytesDecl, Event};
 
-use crate::types::{Annotation, BaseUnit, Component, Connection, Connector, Kind, Structure, System, Type, Unit};
+use crate::parameters::{Binding, NamedUnit, Value, Values};
+use crate::transform::Transformation;
+use crate::types::{Annotation, BaseUnit, Component, Connection, Connector, Structure, System, Type, Unit};
 
 type Xml = Writer<Vec<u8>>;
 
@@ -23,6 +25,9 @@ pub fn write(structure: &Structure, date: Option<&str>) -> io::Result<String> {
         ("xmlns:ssc".to_string(), "http://ssp-standard.org/SSP1/SystemStructureCommon"),
         ("xmlns:ssd".to_string(), "http://ssp-standard.org/SSP1/SystemStructureDescription"),
     ];
+    if structure.system.components.iter().any(|component| !component.bindings.is_empty()) {
+        namespaces.push(("xmlns:ssv".to_string(), "http://ssp-standard.org/SSP1/SystemStructureParameterValues"));
+    }
     for annotation in structure.experiment.annotations.iter().filter(|a| !a.elements.is_empty()) {
         let declared = (format!("xmlns:{}", annotation.prefix), annotation.namespace.as_str());
         if !namespaces.contains(&declared) {
@@ -74,7 +79,7 @@ fn component(xml: &mut Xml, component: &Component) -> io::Result<()> {
     xml.create_element("ssd:Component")
         .with_attribute(("name", component.name.as_str()))
         .with_attribute(("type", "application/x-fmu-sharedlibrary"))
-        .with_attribute(("source", encoded(&component.source).as_str()))
+        .with_attribute(("source", encoded(&component.source.path).as_str()))
         .with_attribute(("implementation", "CoSimulation"))
         .with_attributes(component.description.as_deref().map(|text| ("description", text)))
         .write_inner_content(|xml| {
@@ -87,15 +92,18 @@ fn component(xml: &mut Xml, component: &Component) -> io::Result<()> {
                 let named = ["x1", "y1", "x2", "y2"].into_iter().zip(corners.iter().map(String::as_str));
                 xml.create_element("ssd:ElementGeometry").with_attributes(named).write_empty()?;
             }
+            if !component.bindings.is_empty() {
+                xml.create_element("ssd:ParameterBindings")
+                    .write_inner_content(|xml| component.bindings.iter().try_for_each(|b| binding(xml, b)))?;
+            }
             Ok(())
         })?;
     Ok(())
 }
 
 fn connector(xml: &mut Xml, connector: &Connector) -> io::Result<()> {
-    let kind = Kind::NAMES.iter().find(|(_, kind)| *kind == connector.kind).map_or("", |(name, _)| name);
     xml.create_element("ssd:Connector")
-        .with_attributes([("name", connector.name.as_str()), ("kind", kind)])
+        .with_attributes([("name", connector.name.as_str()), ("kind", connector.kind.name())])
         .write_inner_content(|xml| {
             match &connector.kind_of_value {
                 Some(Type::Real(unit)) => {
@@ -118,17 +126,59 @@ fn connection(xml: &mut Xml, connection: &Connection) -> io::Result<()> {
         .with_attributes(connection.end.0.as_deref().map(|name| ("endElement", name)))
         .with_attribute(("endConnector", connection.end.1.as_str()))
         .with_attributes(connection.suppress_unit_conversion.then_some(("suppressUnitConversion", "true")));
-    if (connection.factor, connection.offset) == (1.0, 0.0) {
+    let Some(transformation) = &connection.transformation else {
         element.write_empty()?;
         return Ok(());
-    }
-    // Both attributes, always: some importers take a missing factor for 0.
-    let (factor, offset) = (number(connection.factor), number(connection.offset));
+    };
     element.write_inner_content(|xml| {
+        let Transformation::Linear { factor, offset } = transformation else {
+            return Err(io::Error::other("only linear transformations are written"));
+        };
+        // Both attributes, always: some importers take a missing factor for 0.
+        let (factor, offset) = (number(*factor), number(*offset));
         let attributes = [("factor", factor.as_str()), ("offset", offset.as_str())];
         xml.create_element("ssc:LinearTransformation").with_attributes(attributes).write_empty()?;
         Ok(())
     })?;
+    Ok(())
+}
+
+/// Values in the document, without prefix and mapping.
+fn binding(xml: &mut Xml, binding: &Binding) -> io::Result<()> {
+    let Values::Inline(set) = &binding.values else { return Err(io::Error::other("only inline values are written")) };
+    xml.create_element("ssd:ParameterBinding").write_inner_content(|xml| {
+        xml.create_element("ssd:ParameterValues").write_inner_content(|xml| {
+            let attributes = [("version", "1.0"), ("name", set.name.as_str())];
+            xml.create_element("ssv:ParameterSet").with_attributes(attributes).write_inner_content(|xml| {
+                xml.create_element("ssv:Parameters").write_inner_content(|xml| {
+                    set.parameters.iter().try_for_each(|parameter| {
+                        let element =
+                            xml.create_element("ssv:Parameter").with_attribute(("name", parameter.name.as_str()));
+                        element.write_inner_content(|xml| value(xml, &parameter.value)).map(drop)
+                    })
+                })?;
+                Ok(())
+            })?;
+            Ok(())
+        })?;
+        Ok(())
+    })?;
+    Ok(())
+}
+
+fn value(xml: &mut Xml, value: &Value) -> io::Result<()> {
+    let (kind, text) = match value {
+        Value::Real(x, _) => ("Real", number(*x)),
+        Value::Integer(i) => ("Integer", i.to_string()),
+        Value::Boolean(truth) => ("Boolean", truth.to_string()),
+        Value::Text(text) => ("String", text.clone()),
+        Value::Item(name, _) => ("Enumeration", name.clone()),
+        Value::Other(what) => return Err(io::Error::other(format!("a value cannot be written: {what}"))),
+    };
+    let unit =
+        if let Value::Real(_, Some(NamedUnit { name, .. })) = value { Some(("unit", name.as_str())) } else { None };
+    let element = xml.create_element(format!("ssv:{kind}")).with_attribute(("value", text.as_str()));
+    element.with_attributes(unit).write_empty()?;
     Ok(())
 }
 

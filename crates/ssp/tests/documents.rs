@@ -1,8 +1,8 @@
 //! What is written is read again; what is wrong in a document is found, all of it, each with its place.
 
 use ttb_ssp::{
-    Annotation, BaseUnit, Component, Connection, Connector, Content, Experiment, Kind, Structure, System, Type, Unit,
-    pack, read, write,
+    Annotation, BaseUnit, Binding, Component, Connection, Connector, Content, Experiment, Kind, Parameter,
+    ParameterSet, Source, Structure, System, Transformation, Type, Unit, Value, Values, pack, read, write,
 };
 
 fn structure() -> Structure {
@@ -15,35 +15,42 @@ fn structure() -> Structure {
     };
     let component = |name: &str, source: &str, connectors| Component {
         name: name.into(),
-        source: source.into(),
+        source: Source::inside(source),
         connectors,
         ..Component::default()
     };
     let connection = |start, end, factor, offset| Connection {
         start,
         end,
-        factor,
-        offset,
+        transformation: Transformation::linear(factor, offset),
         suppress_unit_conversion: factor != 1.0,
         place: String::new(),
     };
     let powers = [1, 1, -2, 0, 0, 0, 0, 0];
+    let parameter =
+        |name: &str, value| Parameter { name: name.into(), value, file: "a.ssd".into(), place: String::new() };
+    let parameters =
+        vec![parameter("EI", Value::Real(1e11 / 3.0, None)), parameter("kind", Value::Item("a<b".into(), None))];
+    let values = Values::Inline(ParameterSet { name: "p".into(), parameters });
+    let binding = Binding { values, ..Binding::default() };
+    let bound = |component: Component| Component { bindings: vec![binding.clone()], ..component };
     Structure {
         name: "a < b & \"c\"".into(),
         description: Some("Brücke".into()),
         tool: Some("ttb".into()),
         system: System {
             name: "S".into(),
-            description: None,
             components: vec![
                 component("train", "resources/Zug 1.fmu", vec![real("f[1]", Kind::Output, "kN")]),
-                component("bridge", "resources/b.fmu", vec![real("F_1", Kind::Input, "kN")]),
+                bound(component("bridge", "resources/b.fmu", vec![real("F_1", Kind::Input, "kN")])),
             ],
             connections: vec![
                 connection(end("train", "f[1]"), end("bridge", "F_1"), -1e3, 0.1 + 0.2),
                 connection(end("bridge", "u"), end("train", "u"), 1.0, 0.0),
             ],
+            ..System::default()
         },
+        enumerations: Vec::new(),
         units: vec![Unit { name: "kN".into(), base: BaseUnit { powers, factor: 1e3, offset: 0.0 } }],
         experiment: Experiment {
             start: Some(0.0),
@@ -63,8 +70,15 @@ fn structure() -> Structure {
 /// Without what only a document that was read has, or only one that is written.
 fn plain(mut structure: Structure) -> Structure {
     let components = &mut structure.system.components;
-    components.iter_mut().for_each(|component| component.place.clear());
+    components.iter_mut().for_each(|component| (component.place, component.source.raw) = (String::new(), None));
     components.iter_mut().flat_map(|c| &mut c.connectors).for_each(|connector| connector.place.clear());
+    for binding in components.iter_mut().flat_map(|c| &mut c.bindings) {
+        binding.place.clear();
+        if let Values::Inline(set) = &mut binding.values {
+            set.parameters.iter_mut().for_each(|parameter| parameter.place.clear());
+        }
+    }
+    structure.system.place.clear();
     structure.system.connections.iter_mut().for_each(|connection| connection.place.clear());
     for annotation in &mut structure.experiment.annotations {
         annotation.place.clear();
@@ -103,12 +117,35 @@ fn the_same_structure_gives_the_same_bytes() {
     assert!(missing.unwrap_err().to_string().contains("no.fmu cannot be read"));
 }
 
+#[test]
+fn empty_containers_are_nothing() {
+    let good = write(&structure(), None).unwrap();
+    let expected = plain(read(good.as_bytes(), "a.ssd").unwrap());
+    let empty = [
+        ("<ssd:Connectors>", "<ssd:ParameterBindings/><ssd:Connectors>"),
+        ("<ssd:Elements>", "<ssd:Connectors/><ssd:ParameterBindings></ssd:ParameterBindings><ssd:Elements>"),
+        ("</ssd:System>", "<ssd:SignalDictionaries/><ssd:Annotations/></ssd:System>"),
+        ("<ssd:Units>", "<ssd:Enumerations/><ssd:Units>"),
+    ];
+    for (what, with) in empty {
+        let text = good.replacen(what, with, 1);
+        assert!(text != good, "{what}");
+        assert_eq!(
+            plain(read(text.as_bytes(), "a.ssd").unwrap_or_else(|report| panic!("{report}"))),
+            expected,
+            "{with}"
+        );
+    }
+    let without_unit = read(good.replace("unit=\"kN\"", "unit=\"\"").as_bytes(), "a.ssd").unwrap();
+    assert_eq!(without_unit.system.components[0].connectors[0].kind_of_value, Some(Type::Real(None)));
+}
+
 /// What is replaced in a good document, by what, and what is said of it.
-const BROKEN: [(&str, &str, &str); 20] = [
+const BROKEN: [(&str, &str, &str); 21] = [
     ("<?xml", "<xml", "/xml: an attribute cannot be read"),
     ("</ssd:SystemStructureDescription>", "", "ends before its last element is closed"),
     ("</ssd:System>", "</ssd:Sytem>", "is not well-formed near byte"),
-    ("version=\"1.0\" name", "version=\"2.0\" name", "is for SSP \"2.0\""),
+    ("version=\"1.0\" name", "version=\"3.0\" name", "is for SSP \"3.0\""),
     ("<ssd:System ", "<ssd:Systems ", "is not well-formed"),
     (
         "<ssd:SystemStr",
@@ -118,13 +155,18 @@ const BROKEN: [(&str, &str, &str); 20] = [
     ("name=\"S\"", "name=\"&boom;\"", "/System: the attribute name cannot be read"),
     ("name=\"S\"", "name=\"S\" name=\"T\"", "/System[@name='S']: an attribute cannot be read"),
     ("name=\"train\"", "name=\"bridge\"", "another element of this name"),
-    ("resources/b.fmu", "../b.fmu", "/Component[@name='bridge']: the attribute source is \"../b.fmu\": it leads out"),
-    ("resources/b.fmu", "http://a/b.fmu", "only files inside the archive"),
+    ("resources/b.fmu", "%zz.fmu", "/Component[@name='bridge']: the attribute source is \"%zz.fmu\": a percent sign"),
+    ("resources/b.fmu", "http://a/b.fmu", "nothing is fetched from elsewhere"),
     ("source=\"resources/b.fmu\"", "", "the attribute source is missing"),
-    ("x-fmu-sharedlibrary", "x-ssp-package", "a structure within a structure"),
+    ("x-fmu-sharedlibrary", "table", "its type is \"application/table\"; only FMUs"),
     ("implementation=\"CoSimulation\"", "implementation=\"ModelExchange\"", "only co-simulation is supported"),
-    ("<ssd:Connectors>", "<ssd:ParameterBindings/><ssd:Connectors>", "parameter bindings are not supported"),
-    ("<ssd:Elements>", "<ssd:Elements><ssd:System name=\"inner\"/>", "/System[@name='inner']: systems within systems"),
+    ("ssv:Real value=\"", "ssv:Real value=\"x", "/Parameter[@name='EI']/Real: the attribute value is no number"),
+    ("<ssd:Elements>", "<ssd:Elements><ssd:Robot name=\"r\"/>", "/Robot[@name='r']: an element Robot is not known"),
+    (
+        "<ssv:Parameter name=\"kind\">",
+        "<ssv:Parameter name=\"EI\">",
+        "another parameter of this name with another value",
+    ),
     ("kind=\"input\"", "kind=\"inward\"", "a connector needs a name and a kind"),
     ("startConnector=\"u\"", "", "/Connections/Connection[2]: has no attribute startConnector"),
     ("factor=\"-1000.0\"", "factor=\"NaN\"", "Connection[1]/LinearTransformation: the attribute factor is no number"),
@@ -147,7 +189,7 @@ fn every_broken_document_is_refused_with_its_place() {
 #[test]
 fn all_problems_come_at_once() {
     let mut text = write(&structure(), None).unwrap();
-    for (what, by, _) in BROKEN.iter().skip(16) {
+    for (what, by, _) in BROKEN.iter().skip(17) {
         text = text.replacen(what, by, 1);
     }
     let report = read(text.as_bytes(), "a.ssd").unwrap_err();

@@ -14,6 +14,7 @@ The output folder gets
   summary.json            peaks with place and time, iterations, timing, every file read with its hash
   results.svg, .png       deck, cars and wheels over time
   scenario.resolved.json  the scenario with all defaults and the steps that were taken; maps likewise
+  system.resolved.ssp     instead, of a system structure: flattened, all values and settings inside
   *.fmu                   the FMUs that were built for the run
 While a run lasts, another run into its folder is refused. When a run begins its first step, it
 removes what an earlier run left in the folder; a run that is refused leaves the folder as it is.
@@ -30,7 +31,7 @@ An FMU that crashes ends the program, and results are lost, unless it is isolate
 /// Arguments of `ttb run`.
 #[derive(Debug, Args)]
 pub struct Run {
-    /// The scenario file, or a system structure of two FMUs, FILE.ssp [default: the bundled ICE 3 over a cable-stayed bridge]
+    /// The scenario file, or a system structure of two FMUs, FILE.ssp or FILE.ssd [default: the bundled ICE 3 over a cable-stayed bridge]
     pub scenario: Option<PathBuf>,
     /// Other values for keys of the scenario
     #[command(flatten)]
@@ -77,7 +78,8 @@ pub struct Run {
 impl Run {
     /// The system structure to be run, if it is one: by the file's name.
     pub fn system(&self) -> Option<&Path> {
-        let is_system = |path: &&Path| path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("ssp"));
+        let known = |ending: &std::ffi::OsStr| ending.eq_ignore_ascii_case("ssp") || ending.eq_ignore_ascii_case("ssd");
+        let is_system = |path: &&Path| path.extension().is_some_and(known);
         self.scenario.as_deref().filter(is_system)
     }
 

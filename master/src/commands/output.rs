@@ -19,7 +19,7 @@ use crate::results::summary::{Shown, Summary};
 const SUMMARY: &str = "summary.json";
 const SCENARIO: &str = "scenario.resolved.json";
 /// What a run writes besides, and copies of its maps: `bridge-map.json`, `bridge-map-2.json` …
-const FILES: [&str; 11] = [
+const FILES: [&str; 12] = [
     "results.csv",
     "iterations.csv",
     "results.svg",
@@ -31,6 +31,7 @@ const FILES: [&str; 11] = [
     "assessment.json",
     "verdicts.json",
     "report.html",
+    "system.resolved.ssp",
 ];
 const MAP: &str = "bridge-map";
 

@@ -145,9 +145,15 @@ fn run_system(
         ));
     }
     let begin = Instant::now();
-    let mut opened = Opened::open(path, isolated)?;
+    let mut opened = Opened::open(path)?;
     opened.job.provenance = Provenance::new(arguments, None)?;
-    let output = Output::new(&opened.job, Folder::claim(&arguments.output, stop)?, arguments, Vec::new());
+    for (role, path) in &opened.inputs {
+        opened.job.provenance.add(role, path, Path::new(""))?;
+    }
+    let folder = Folder::claim(&arguments.output, stop)?;
+    let place = Temporary::new("ttb-run-").map_err(Error::io(Path::new("temporary folder")))?;
+    let copies = vec![opened.resolved.write(place.path())?];
+    let output = Output::new(&opened.job, folder, arguments, copies);
     let judged = Judged { criteria, facts: Facts::default(), checked: None };
     let done = run_trusting(
         |trusted| opened.connect(isolated, trusted),
@@ -189,7 +195,7 @@ fn run_connected(
     let mut look = |found: &Probe| {
         probe.clone_from(found);
         let told = match own {
-            Some(structure) => judge_own(found, &name, structure)?,
+            Some(structure) => judge_own(found, &name, structure, repeats)?,
             None => judge(found, &name, parts, *rules, repeats)?,
         };
         warn(&told);

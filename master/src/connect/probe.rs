@@ -73,8 +73,13 @@ pub fn judge(
 
 /// As [`judge`], for the bridge of the scenario itself, which was built here: no map can be wrong. What no deck can do is
 /// refused, what is only unusual is returned as a warning.
-pub fn judge_own(probe: &Probe, train_track: &str, bridge: &StructureSpec) -> Result<Vec<String>, RunError> {
-    judge(&Probe { responses: Vec::new(), ..probe.clone() }, train_track, &[])?;
+pub fn judge_own(
+    probe: &Probe,
+    train_track: &str,
+    bridge: &StructureSpec,
+    repeats: bool,
+) -> Result<Vec<String>, RunError> {
+    judge(&Probe { responses: Vec::new(), ..probe.clone() }, train_track, &[], Rules::Deck, repeats)?;
     let refused = |text: String| Err(RunError::Refused(Refusal::Input(text)));
     let (mass, stiffness) = match bridge {
         StructureSpec::Beams { .. } => {

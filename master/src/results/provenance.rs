@@ -14,7 +14,8 @@ use crate::files::sha256;
 /// A file that a run read.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Input {
-    /// What it was read as: `scenario`, `system`, `train-track`, `bridge`, `map`, `model`, `matrices`, `profile`.
+    /// What it was read as: `scenario`, `system`, `train-track`, `bridge`, `map`, `model`, `matrices`, `profile`,
+    /// and of a system structure `fmu`, `values`.
     pub role: String,
     /// Its path as it was given, relative to where that is written.
     pub path: String,
@@ -102,7 +103,11 @@ impl Provenance {
         Ok(provenance)
     }
 
-    fn add(&mut self, role: &str, path: &Path, folder: &Path) -> Result<(), Error> {
+    /// Adds a file that lies in `folder`, unless its path is whole.
+    ///
+    /// # Errors
+    /// It cannot be read.
+    pub fn add(&mut self, role: &str, path: &Path, folder: &Path) -> Result<(), Error> {
         let sha256 = sha256(&folder.join(path))?;
         self.inputs.push(Input { role: role.into(), path: path.display().to_string(), sha256 });
         Ok(())

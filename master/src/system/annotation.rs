@@ -12,6 +12,9 @@ pub const KIND: &str = "org.ttb.coupling";
 /// Type of the annotation of libcosim, and its elements.
 const OSP: &str = "com.opensimulationplatform";
 const OSP_FIXED_STEP: [&str; 2] = ["Algorithm", "FixedStepAlgorithm"];
+/// Type of the annotation of OMSimulator, and its elements.
+const OPEN_MODELICA: &str = "org.openmodelica";
+const OPEN_MODELICA_FIXED_STEP: [&str; 3] = ["Annotations", "SimulationInformation", "FixedStepMaster"];
 /// N; some axle loads of a train: the scale of the tolerance where none is given.
 const FORCE_SCALE: f64 = 100e3;
 
@@ -114,15 +117,19 @@ pub fn read(annotations: &[Annotation], report: &mut Report) -> Settings {
         report.problem(&second.place, format!("there is another annotation {KIND}"));
     }
     if settings.step.is_none() {
-        settings.step = annotations.iter().find_map(osp_step);
+        settings.step = annotations.iter().find_map(step_of_others);
     }
     settings
 }
 
-/// The step that libcosim would take.
-fn osp_step(annotation: &Annotation) -> Option<f64> {
-    let fixed = annotation.kind == OSP && annotation.elements == OSP_FIXED_STEP;
-    let (_, step) = annotation.attributes.iter().find(|(key, _)| fixed && key == "baseStepSize")?;
+/// The step that libcosim or OMSimulator would take.
+fn step_of_others(annotation: &Annotation) -> Option<f64> {
+    let key = match annotation.kind.as_str() {
+        OSP if annotation.elements == OSP_FIXED_STEP => "baseStepSize",
+        OPEN_MODELICA if annotation.elements == OPEN_MODELICA_FIXED_STEP => "stepSize",
+        _ => return None,
+    };
+    let (_, step) = annotation.attributes.iter().find(|(known, _)| known == key)?;
     step.trim().parse().ok().filter(|step: &f64| *step > 0.0 && step.is_finite())
 }
 

@@ -10,8 +10,8 @@ use ttb_fmi2::import::read_description;
 use ttb_model_description::Date;
 use ttb_scenario::Checked;
 use ttb_ssp::{
-    BaseUnit, Component, Connection, Connector, Content, EXTRA, Experiment, Kind, RESOURCES, Stamp, Structure, System,
-    Type, Unit, pack,
+    BaseUnit, Component, Connection, Connector, Content, EXTRA, Experiment, Kind, RESOURCES, Source, Stamp, Structure,
+    System, Type, Unit, pack,
 };
 
 use super::annotation::{Settings, write};
@@ -105,8 +105,10 @@ fn structure(checked: &Checked, [train_track, bridge]: &[ModelDescription; 2]) -
                 .map(|((name, geometry), description)| component(name, *geometry, description))
                 .collect(),
             connections: forces.chain(motions).collect(),
+            ..System::default()
         },
         units,
+        enumerations: Vec::new(),
         experiment: Experiment { start: Some(0.0), stop: Some(checked.train_track.end), annotations: write(&settings) },
     }
 }
@@ -127,7 +129,7 @@ fn component(name: &str, geometry: [f64; 4], description: &ModelDescription) -> 
     });
     Component {
         name: name.into(),
-        source: source(name),
+        source: Source::inside(source(name)),
         connectors: connectors.collect(),
         geometry: Some(geometry),
         ..Component::default()
@@ -144,8 +146,7 @@ fn connections<'a>(
     inputs.with_causality("input").filter(move |v| fits(&output(&v.name))).map(move |v| Connection {
         start: (Some(from.into()), output(&v.name)),
         end: (Some(to.into()), v.name.clone()),
-        factor: 1.0,
-        offset: 0.0,
+        transformation: None,
         suppress_unit_conversion: false,
         place: String::new(),
     })

@@ -1,21 +1,26 @@
-//! `ttb run SYSTEM.ssp`: from an archive to two FMUs and how they are connected, or to everything that is wrong with it.
+//! `ttb run SYSTEM.ssp`: from an archive or a document to two FMUs, their start values and how they are connected, or to
+//! everything that is wrong with it.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashSet};
 use std::path::{Path, PathBuf};
 
-use ttb_fmi::Fmu;
-use ttb_fmi::archive::{UnpackError, unpack};
-use ttb_fmi::isolate::Isolation;
-use ttb_fmi::temporary::Temporary;
+use ttb_fmi::description::ModelDescription;
+use ttb_scenario::types::OnFailure;
 use ttb_session::Case;
-use ttb_ssp::{Report, STRUCTURE, Structure};
+use ttb_ssp::{Component, Flat, Report, Structure, flatten, load};
 
 use super::annotation::{self, Settings};
-use super::roles;
-use super::wiring::{Link, links};
+use super::describe::describe;
+use super::files::Opener;
+use super::resolved::Resolved;
+use super::values::{start_values, without_variable};
+use super::wiring::{Link, Side, Units, connectors, links};
+use super::{roles, steps};
 use crate::connect::assign::{Assigned, Ends};
 use crate::connect::connected::{Bridge, Connected, couple, instantiate};
 use crate::connect::isolate::{self, Isolated};
+use crate::connect::map::Value;
+use crate::connect::probe::Rules;
 use crate::error::Error;
 use crate::files::sha256;
 use crate::results::belief::Scale;
@@ -29,52 +34,160 @@ pub struct Opened {
     pub job: Job,
     /// What is allowed, but rarely meant.
     pub warnings: Vec<String>,
+    /// Files beside the system's own that were read, and as what.
+    pub inputs: Vec<(&'static str, PathBuf)>,
+    /// The system as it was understood.
+    pub resolved: Resolved,
     settings: Settings,
-    /// Name of the component and FMU.
-    train_track: (String, Fmu),
-    /// Name of the component and file of the FMU.
-    bridge: (String, PathBuf),
+    train_track: Part,
+    bridge: Part,
     assigned: Assigned,
-    /// The archive's files.
-    _folder: Temporary,
+    rules: Rules,
+    /// The archives' files.
+    _opener: Opener,
+}
+
+/// A component: its name, its FMU, its start values.
+struct Part {
+    name: String,
+    file: PathBuf,
+    parameters: BTreeMap<String, Value>,
+}
+
+/// What a document says and what the FMUs say.
+struct Read {
+    structure: Structure,
+    flat: Flat,
+    descriptions: Vec<Option<ModelDescription>>,
+    parameters: Vec<BTreeMap<String, Value>>,
+    warnings: Vec<String>,
 }
 
 impl Opened {
-    /// Reads and checks an archive.
-    pub fn open(path: &Path, isolated: &Isolated) -> Result<Self, Error> {
-        let refused = |why: String| Error::Input(format!("{}: {why}", path.display()));
-        let folder = unpack(path).map_err(|error| match error {
-            UnpackError::Archive(error) => refused(format!("is no readable system structure (zip archive): {error}")),
-            other => refused(other.to_string()),
-        })?;
-        let document = folder.path().join(STRUCTURE);
-        let bytes = std::fs::read(document).map_err(|_| refused(format!("has no {STRUCTURE} at its top")))?;
-        let file = format!("{}/{STRUCTURE}", path.display());
-        let structure = ttb_ssp::read(&bytes, &file).map_err(|report| Error::Input(report.to_string()))?;
+    /// Reads and checks an archive (.ssp) or a document by itself (.ssd).
+    pub fn open(path: &Path) -> Result<Self, Error> {
+        let mut opener = Opener::default();
+        let (bytes, base, file) = opener.document(path)?;
         let mut report = Report::new(file);
-        let settings = annotation::read(&structure.experiment.annotations, &mut report);
-        // Which side an FMU is shows later: until then none is loaded here if any is to be kept apart.
-        let isolation = isolated.train_track.as_ref().or(isolated.bridge.as_ref());
-        let fmus = open_fmus(&structure, folder.path(), isolation, &mut report)?;
-        let Some(mut fmus) = fmus else { return Err(Error::Input(report.to_string())) };
-        let components = &structure.system.components;
-        let sides = [(&components[0], fmus[0].description()), (&components[1], fmus[1].description())];
-        let links = links(&structure, &sides, &mut report);
-        let place = settings.place.as_str();
-        let train_track = roles::train_track(settings.train_track.as_deref(), &sides, &links, place, &mut report);
-        let mut warnings = Vec::new();
-        if let Some(train_track) = train_track {
-            warnings = roles::complete(train_track, &sides, &links, &mut report);
+        let loaded = load(&bytes, &base, &mut opener, &mut report);
+        let mut of_wires = Report::new(report.file());
+        let flat = flatten(&loaded.structure, &mut of_wires);
+        let count = flat.components.len();
+        if count != 2 {
+            let place = format!("{}/Elements", loaded.structure.system.place);
+            let rule = "there must be two, a train–track side and a bridge";
+            report.problem(&place, format!("{count} components; {rule}"));
         }
-        let train_track = train_track.unwrap_or(0);
-        let (step, end) = times(&structure, &settings, &[&fmus[train_track], &fmus[1 - train_track]], &mut report);
-        if !report.is_empty() {
+        report.absorb(of_wires);
+        let read = read(loaded.structure, flat, &mut report);
+        let settings = annotation::read(&read.structure.experiment.annotations, &mut report);
+        let outside = |file: &Path| base.archive.as_ref().is_none_or(|archive| !file.starts_with(archive));
+        let files = read.flat.components.iter().filter_map(|component| component.file.clone());
+        let mut inputs: Vec<_> = loaded.read.into_iter().map(|path| ("values", path)).collect();
+        inputs.extend(files.map(|path| ("fmu", path)));
+        inputs.retain(|(_, path)| outside(path));
+        connected(read, settings, report).and_then(|mut opened| {
+            opened.job.origin = Origin::System(sha256(path)?);
+            Ok(Self { inputs, _opener: opener, ..opened })
+        })
+    }
+
+    /// Both FMUs in initialization mode, connected; see [`crate::connect::connected::connect`].
+    pub fn connect(&self, isolated: &Isolated, trusted: bool) -> Result<Connected, Error> {
+        let Part { name, file, parameters } = &self.train_track;
+        let fmu = isolate::open(file, isolated.train_track.as_ref())?;
+        let train_track = instantiate(&fmu, name, self.job.case.end, parameters)?;
+        let Part { name, file, parameters } = &self.bridge;
+        let bridge = Bridge::open(file, name, isolated.bridge.as_ref(), self.job.case.end, parameters)?;
+        let parts = vec![(Bridge { trusted, ..bridge }, self.assigned.clone())];
+        let connected = couple(train_track, parts, &self.job.case, self.settings.coupling.send, self.warnings.clone())?;
+        Ok(Connected { rules: self.rules, ..connected })
+    }
+}
+
+/// What the FMUs of a flattened structure say, and their start values.
+fn read(structure: Structure, flat: Flat, report: &mut Report) -> Read {
+    let units: Units = structure.units.iter().map(|unit| (unit.name.as_str(), unit.base)).collect();
+    let (mut descriptions, mut parameters) = (Vec::new(), Vec::new());
+    let mut warnings = flat.warnings.clone();
+    let mut hit = vec![false; flat.offers.len()];
+    for (k, component) in flat.components.iter().enumerate() {
+        let description = component.file.as_deref().and_then(|file| {
+            describe(file).map_err(|why| report.problem(&component.place, format!("{}: {why}", component.source))).ok()
+        });
+        if let Some(description) = &description {
+            let ends = flat.wires.iter().flat_map(|wire| [&wire.from, &wire.to]);
+            let connected: HashSet<&str> = ends.filter(|(of, _)| *of == k).map(|(_, name)| name.as_str()).collect();
+            let unknown = connectors(&units, &(component, description), &|name| connected.contains(name), report);
+            if let Some(first) = unknown.first() {
+                let (name, more) = (&component.name, unknown.len() - 1);
+                warnings.push(format!(
+                    "{name}: the FMU has no {first} (and {more} more), which the structure lists and nobody connects"
+                ));
+            }
+            parameters.push(start_values(&flat, k, description, &structure.units, &mut hit, &mut warnings, report));
+        } else {
+            parameters.push(BTreeMap::new());
+        }
+        descriptions.push(description);
+    }
+    if descriptions.iter().all(Option::is_some) {
+        warnings.extend(without_variable(&flat, &hit));
+    }
+    Read { structure, flat, descriptions, parameters, warnings }
+}
+
+/// How the two are connected.
+fn connected(read: Read, mut settings: Settings, mut report: Report) -> Result<Opened, Error> {
+    let Read { structure, flat, descriptions, parameters, mut warnings } = read;
+    let both: Vec<Side> =
+        flat.components.iter().zip(&descriptions).filter_map(|(c, d)| Some((c, d.as_ref()?))).collect();
+    let annotated = structure.experiment.annotations.iter().filter(|annotation| annotation.kind == annotation::KIND);
+    let given =
+        |key: &str| annotated.clone().any(|annotation| annotation.attributes.iter().any(|(name, _)| name == key));
+    let sides = match both[..] {
+        [first, second] if flat.components.len() == 2 => [first, second],
+        _ => {
+            // What can be said without knowing which side is which.
+            steps::times(&structure, &settings, &both, &mut Vec::new(), &mut report);
             return Err(Error::Input(report.to_string()));
         }
-        let forces = ends(&links, train_track, &fmus, false);
-        let assigned = Assigned::one_to_one(forces, ends(&links, 1 - train_track, &fmus, true));
-        let title = structure.system.description.or(structure.description).unwrap_or(structure.name);
-        let case = Case {
+    };
+    let units: Units = structure.units.iter().map(|unit| (unit.name.as_str(), unit.base)).collect();
+    let mut links = links(&flat, &units, &sides, &mut report);
+    let place = settings.place.clone();
+    let train_track =
+        roles::train_track(settings.train_track.as_deref(), &sides, &links, &place, &mut warnings, &mut report);
+    let at = train_track.unwrap_or(0);
+    if train_track.is_some() {
+        let set = [0, 1].map(|k| &parameters[k]);
+        warnings.extend(roles::complete(at, &sides, &links, &flat, set, &mut report));
+    }
+    let (step, end) = steps::times(&structure, &settings, &[sides[at], sides[1 - at]], &mut warnings, &mut report);
+    if !place.is_empty() {
+        steps::choose_forces(&mut links, at, &sides[at], settings.substeps);
+    }
+    steps::sub_steps(&settings, step, &sides[at], &parameters[at], &links, at, &mut warnings, &mut report);
+    if !report.is_empty() {
+        return Err(Error::Input(report.to_string()));
+    }
+    let description = sides[at].1;
+    if settings.coupling.max_iterations > 1
+        && !description.co_simulation.can_get_and_set_state
+        && !given("max_iterations")
+    {
+        (settings.coupling.max_iterations, settings.coupling.on_failure) = (1, OnFailure::Accept);
+        warnings.push(format!(
+            "{} cannot save and restore its state: both sides take each step once, without iteration",
+            sides[at].0.name
+        ));
+    }
+    (settings.step, settings.train_track) = (Some(step), Some(sides[at].0.name.clone()));
+    let rules = if roles::is_deck(&links, at) { Rules::SystemOfDeck } else { Rules::System };
+    let title =
+        structure.system.description.clone().or(structure.description.clone()).unwrap_or(structure.name.clone());
+    let job = Job {
+        case: Case {
             title,
             settings: ttb_session::case::settings(&settings.coupling, settings.substeps),
             axle_load: settings.force_scale,
@@ -86,95 +199,32 @@ impl Opened {
             peaks: settings.peaks.map(|times| times.map(|time| time.min(end))),
             columns: settings.output.columns.clone(),
             csv: settings.output.csv,
-        };
-        let job = Job {
-            case,
-            origin: Origin::System(sha256(path)?),
-            irregularity_seed: None,
-            chosen: Vec::new(),
-            choice: None,
-            scale: Scale::default(),
-            scene: Scene::default(),
-            provenance: Provenance::default(),
-        };
-        if isolation.is_some() && isolated.train_track.is_none() {
-            fmus[train_track] = ttb_fmi2::import::open(&folder.path().join(&components[train_track].source))?;
-        }
-        let [first, second] = fmus;
-        let bridge = &components[1 - train_track];
-        let train_track = (components[train_track].name.clone(), if train_track == 0 { first } else { second });
-        let bridge = (bridge.name.clone(), folder.path().join(&bridge.source));
-        Ok(Self { job, warnings, settings, train_track, bridge, assigned, _folder: folder })
-    }
-
-    /// Both FMUs in initialization mode, connected; see [`crate::connect::connected::connect`].
-    pub fn connect(&self, isolated: &Isolated, trusted: bool) -> Result<Connected, Error> {
-        let (name, fmu) = &self.train_track;
-        let none = BTreeMap::new();
-        let train_track = instantiate(fmu, name, self.job.case.end, &none)?;
-        let (name, path) = &self.bridge;
-        let bridge = Bridge::open(path, name, isolated.bridge.as_ref(), self.job.case.end, &none)?;
-        let parts = vec![(Bridge { trusted, ..bridge }, self.assigned.clone())];
-        couple(train_track, parts, &self.job.case, self.settings.coupling.send, self.warnings.clone())
-    }
-}
-
-/// The two FMUs in the order of the components; nothing if there are not two, which is then reported.
-fn open_fmus(
-    structure: &Structure,
-    folder: &Path,
-    isolation: Option<&Isolation>,
-    report: &mut Report,
-) -> Result<Option<[Fmu; 2]>, Error> {
-    let components = &structure.system.components;
-    let paths: Vec<_> = components.iter().map(|component| folder.join(&component.source)).collect();
-    let mut missing = false;
-    for (component, path) in components.iter().zip(&paths) {
-        if !path.is_file() {
-            missing = true;
-            report.problem(&component.place, format!("the archive has no file {}", component.source));
-        }
-    }
-    let [first, second] = paths.as_slice() else {
-        let count = components.len();
-        report.problem(
-            "/SystemStructureDescription/System/Elements",
-            format!("{count} components; there must be two, a train–track side and a bridge"),
-        );
-        return Ok(None);
+        },
+        origin: Origin::System(String::new()),
+        irregularity_seed: None,
+        chosen: Vec::new(),
+        choice: None,
+        scale: Scale::default(),
+        scene: Scene::default(),
+        provenance: Provenance::default(),
     };
-    if missing {
-        return Ok(None);
-    }
-    Ok(Some([isolate::open(first, isolation)?, isolate::open(second, isolation)?]))
-}
-
-/// Step and end of the run; where the structure does not say, the FMUs are asked.
-fn times(structure: &Structure, settings: &Settings, fmus: &[&Fmu; 2], report: &mut Report) -> (f64, f64) {
-    const PLACE: &str = "/SystemStructureDescription/DefaultExperiment";
-    let experiment = &structure.experiment;
-    if let Some(start) = experiment.start.filter(|start| *start != 0.0) {
-        report.problem(&format!("{PLACE}/@startTime"), format!("is {start}; runs start at 0"));
-    }
-    let positive = |time: &f64| *time > 0.0 && time.is_finite();
-    let end = experiment.stop.or_else(|| fmus.iter().find_map(|fmu| fmu.description().stop_time));
-    let end = end.filter(positive).unwrap_or_else(|| {
-        report.problem(&format!("{PLACE}/@stopTime"), "there is no end after 0, neither here nor in the FMUs");
-        0.0
-    });
-    let step = settings.step.or_else(|| fmus.iter().find_map(|fmu| fmu.description().step_size));
-    let step = step.filter(positive).unwrap_or_else(|| {
-        let message = "there is no step: say it with the attribute step of the annotation org.ttb.coupling";
-        report.problem(PLACE, message);
-        0.0
-    });
-    (step, end)
+    let forces = ends(&links, at, &sides, false);
+    let assigned = Assigned::one_to_one(forces, ends(&links, 1 - at, &sides, true));
+    let part = |k: usize| Part {
+        name: sides[k].0.name.clone(),
+        file: sides[k].0.file.clone().unwrap_or_default(),
+        parameters: parameters[k].clone(),
+    };
+    let resolved = Resolved::new(&structure, &sides, &links, &parameters, &settings, end);
+    let (train_track, bridge) = (part(at), part(1 - at));
+    let (inputs, _opener) = (Vec::new(), Opener::default());
+    Ok(Opened { job, warnings, inputs, resolved, settings, train_track, bridge, assigned, rules, _opener })
 }
 
 /// The links from a component, in the order of the inputs they lead to, as where equal names are connected. The iteration
 /// sees what the train–track side sees, in SI: a transformation is the bridge's, whichever way it leads.
-fn ends(links: &[Link], from: usize, fmus: &[Fmu; 2], from_bridge: bool) -> [Ends; 2] {
-    let inputs = fmus[1 - from].description().with_causality("input");
+fn ends(links: &[Link], from: usize, sides: &[(&Component, &ModelDescription); 2], from_bridge: bool) -> [Ends; 2] {
+    let inputs = sides[1 - from].1.with_causality("input");
     let order: std::collections::HashMap<&str, usize> = inputs.enumerate().map(|(i, v)| (v.name.as_str(), i)).collect();
     let mut links: Vec<&Link> = links.iter().filter(|link| link.from == from).collect();
     links.sort_by_key(|link| order.get(link.input.as_str()));

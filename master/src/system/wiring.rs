@@ -1,15 +1,15 @@
-//! The connections of a system structure against the FMUs they connect.
+//! The wires of a system structure against the FMUs they connect.
 
 use std::collections::HashMap;
 
 use ttb_fmi::Linear;
 use ttb_fmi::description::{ModelDescription, ScalarVariable, VariableType};
-use ttb_ssp::{BaseUnit, Component, Connection, Connector, Kind, Report, Structure, Type};
+use ttb_ssp::{BaseUnit, Component, Connector, Flat, Kind, Report, Transformation, Type, Wire};
 
 /// A component and what its FMU says.
 pub type Side<'a> = (&'a Component, &'a ModelDescription);
 
-/// A connection whose both ends exist and fit.
+/// A wire whose both ends exist and fit.
 #[derive(Clone, Debug)]
 pub struct Link {
     /// Index of the component it starts from, 0 or 1; it ends in the other.
@@ -24,69 +24,64 @@ pub struct Link {
     pub from_si: Linear,
     /// From the input's unit to SI.
     pub input_to_si: Linear,
+    /// From the output's value to the input's, both as the FMUs have them.
+    pub line: Linear,
     /// Whether it carries forces.
     pub is_force: bool,
+    /// Where its last connection stands.
+    pub place: String,
 }
 
 const NEWTON: [i32; 8] = [1, 1, -2, 0, 0, 0, 0, 0];
 
-/// What connections refer to, by name.
-struct Names<'a> {
-    connectors: [HashMap<&'a str, &'a Connector>; 2],
-    units: HashMap<&'a str, BaseUnit>,
+/// Units that the structure defines, by name.
+pub type Units<'a> = HashMap<&'a str, BaseUnit>;
+
+/// A component by the names of its connectors.
+struct Known<'a> {
+    component: &'a Component,
+    description: &'a ModelDescription,
+    connectors: HashMap<&'a str, &'a Connector>,
 }
 
 /// One end of a connection.
 struct End<'a> {
-    side: usize,
     variable: &'a ScalarVariable,
     unit: Option<BaseUnit>,
 }
 
-/// All connections between the two components.
-pub fn links(structure: &Structure, sides: &[Side; 2], report: &mut Report) -> Vec<Link> {
-    let names = Names {
-        connectors: sides.map(|(component, _)| component.connectors.iter().map(|c| (c.name.as_str(), c)).collect()),
-        units: structure.units.iter().map(|unit| (unit.name.as_str(), unit.base)).collect(),
-    };
-    for (component, description) in sides {
-        connectors(&names, component, description, report);
-    }
-    let mut driven: HashMap<(usize, &str), &str> = HashMap::new();
+/// All wires between the two components.
+pub fn links(flat: &Flat, units: &Units, sides: &[Side; 2], report: &mut Report) -> Vec<Link> {
+    let known = sides.map(|(component, description)| {
+        let connectors = component.connectors.iter().map(|connector| (connector.name.as_str(), connector)).collect();
+        Known { component, description, connectors }
+    });
     let mut links = Vec::new();
-    for connection in &structure.system.connections {
-        let place = connection.place.as_str();
-        // What goes out to the system's own connectors drives nothing here.
-        let (Some(start), Some(end)) = (&connection.start.0, &connection.end.0) else {
-            if connection.start.0.is_none() {
-                report.problem(
-                    place,
-                    format!("starts from the system's own connector {}, which nothing drives", connection.start.1),
-                );
-            }
-            continue;
-        };
-        let start = find(&names, sides, (start, &connection.start.1), "output", place, report);
-        let end = find(&names, sides, (end, &connection.end.1), "input", place, report);
+    for wire in &flat.wires {
+        let [start, end] = [(&wire.from, "output"), (&wire.to, "input")]
+            .map(|((side, name), causality)| find(units, known.get(*side)?, name, causality, &wire.place, report));
         let (Some(start), Some(end)) = (start, end) else { continue };
-        if start.side == end.side {
-            report.problem(place, "connects a component with itself");
-            continue;
-        }
-        if let Some(other) = driven.insert((end.side, &end.variable.name), place) {
-            let other = other.rsplit('/').next().unwrap_or(other);
-            report.problem(place, format!("{} is driven already, by {other}", connection.end.1));
-            continue;
-        }
-        links.extend(link(connection, &start, &end, report));
+        links.extend(link(wire, &start, &end, report));
     }
     links
 }
 
 /// Connectors that the FMU has not, or has as something else.
-fn connectors(names: &Names, component: &Component, description: &ModelDescription, report: &mut Report) {
+///
+/// Parameters that the FMU does not have and nobody connects are returned for a warning: tools list some of their own.
+pub fn connectors(
+    units: &Units,
+    (component, description): &Side,
+    connected: &dyn Fn(&str) -> bool,
+    report: &mut Report,
+) -> Vec<String> {
+    let mut unknown = Vec::new();
     for connector in &component.connectors {
         let Some(variable) = description.variable(&connector.name) else {
+            if !matches!(connector.kind, Kind::Input | Kind::Output) && !connected(&connector.name) {
+                unknown.push(connector.name.clone());
+                continue;
+            }
             report.problem(&connector.place, format!("{} has no variable of this name", component.source));
             continue;
         };
@@ -96,16 +91,18 @@ fn connectors(names: &Names, component: &Component, description: &ModelDescripti
             _ => true,
         };
         if !fits {
-            let kind = Kind::NAMES.iter().find(|(_, kind)| *kind == connector.kind).map_or("", |(name, _)| name);
+            let kind = connector.kind.name();
             report.problem(
                 &connector.place,
                 format!("is an {kind} here, but in the FMU a variable of causality {}", variable.causality),
             );
         }
         if let Some(Type::Real(Some(unit))) = &connector.kind_of_value {
-            let here = names.units.get(unit.as_str());
+            let here = units.get(unit.as_str());
             let there = variable.unit.as_ref().and_then(|name| unit_of(description, name));
             match (here, there) {
+                // The FMU's own name for its unit needs no definition here.
+                (None, _) if variable.unit.as_ref() == Some(unit) => {}
                 (None, _) => {
                     report.problem(&connector.place, format!("the unit {unit} is not among the structure's Units"))
                 }
@@ -117,33 +114,27 @@ fn connectors(names: &Names, component: &Component, description: &ModelDescripti
             }
         }
     }
+    unknown
 }
 
-fn unit_of(description: &ModelDescription, name: &str) -> Option<BaseUnit> {
+/// What a unit of an FMU is.
+pub fn unit_of(description: &ModelDescription, name: &str) -> Option<BaseUnit> {
     let unit = description.units.get(name)?;
     Some(BaseUnit { powers: unit.powers, factor: unit.factor, offset: unit.offset })
 }
 
-/// An end of a connection, or a problem.
+/// An end of a wire, or a problem.
 fn find<'a>(
-    names: &Names,
-    sides: &[Side<'a>; 2],
-    (element, connector): (&str, &str),
+    units: &Units,
+    Known { component, description, connectors }: &Known<'a>,
+    connector: &str,
     causality: &str,
     place: &str,
     report: &mut Report,
 ) -> Option<End<'a>> {
-    let Some(side) = sides.iter().position(|(component, _)| component.name == element) else {
-        report.problem(place, format!("there is no component {element}"));
-        return None;
-    };
-    let description = sides[side].1;
-    let declared = names.connectors[side].get(connector);
-    let (Some(declared), variable) = (declared, description.variable(connector)) else {
-        report.problem(place, format!("the component {element} has no connector {connector}"));
-        return None;
-    };
-    let variable = variable?; // a problem of the connector, reported there
+    let element = &component.name;
+    let declared = connectors.get(connector)?;
+    let variable = description.variable(connector)?; // a problem of the connector, reported there
     let other = matches!(declared.kind_of_value, Some(Type::Other(_)));
     if other || variable.kind != VariableType::Real {
         report.problem(place, format!("{element}: {connector} is no Real"));
@@ -154,48 +145,60 @@ fn find<'a>(
         return None;
     }
     let declared = match &declared.kind_of_value {
-        Some(Type::Real(Some(unit))) => names.units.get(unit.as_str()).copied(),
+        Some(Type::Real(Some(unit))) => units.get(unit.as_str()).copied(),
         _ => None,
     };
     let own = || variable.unit.as_ref().and_then(|name| unit_of(description, name));
-    Some(End { side, variable, unit: declared.or_else(own) })
+    Some(End { variable, unit: declared.or_else(own) })
 }
 
-/// `input = factor · (output in the input's unit) + offset`, by way of SI.
-fn link(connection: &Connection, start: &End, end: &End, report: &mut Report) -> Option<Link> {
+/// `input = factor · (output in the input's unit) + offset` on every hop of the way.
+fn link(wire: &Wire, start: &End, end: &End, report: &mut Report) -> Option<Link> {
     let none = BaseUnit { powers: [0; 8], factor: 1.0, offset: 0.0 };
     let from = start.unit.unwrap_or(none);
-    let convert = |to: BaseUnit| (from.factor / to.factor, (from.offset - to.offset) / to.factor);
-    let (scale, shift) = match (start.unit, end.unit) {
-        (Some(_), Some(to)) if !connection.suppress_unit_conversion => {
-            if from.powers != to.powers {
+    let (mut unit, mut line) = (start.unit, Linear::IDENTITY);
+    for (k, hop) in wire.hops.iter().enumerate() {
+        let to = if k + 1 == wire.hops.len() { end.unit } else { hop.unit };
+        if let (Some(unit), Some(to), false) = (unit, to, hop.suppress_unit_conversion) {
+            if unit.powers != to.powers {
                 let name = |end: &End| end.variable.unit.clone().unwrap_or_else(|| "another".into());
-                let (a, b) = (name(start), name(end));
+                let (a, b) = (&start.variable.name, &end.variable.name);
+                report.problem(&hop.place, format!("{a} is in {}, {b} in {}", name(start), name(end)));
+                return None;
+            }
+            if unit != to {
+                line = line
+                    .then(Linear { factor: unit.factor / to.factor, offset: (unit.offset - to.offset) / to.factor });
+            }
+        }
+        unit = to.or(unit);
+        match &hop.transformation {
+            None => {}
+            Some(Transformation::Linear { factor, offset }) => {
+                line = line.then(Linear { factor: *factor, offset: *offset });
+            }
+            Some(other) => {
                 report.problem(
-                    &connection.place,
-                    format!("{} is in {a}, {} in {b}", connection.start.1, connection.end.1),
+                    &hop.place,
+                    format!("{} is not for numbers (Real), only LinearTransformation", other.name()),
                 );
                 return None;
             }
-            convert(to)
         }
-        _ => (1.0, 0.0),
-    };
-    let (f, o) = (connection.factor, connection.offset);
-    if f == 0.0 {
-        report.problem(&connection.place, "its factor is 0: nothing would pass");
-        return None;
     }
+    let to_si = Linear { factor: from.factor, offset: from.offset };
     Some(Link {
-        from: start.side,
+        from: wire.from.0,
         output: start.variable.name.clone(),
         input: end.variable.name.clone(),
-        to_si: Linear { factor: from.factor, offset: from.offset },
+        to_si,
         from_si: Linear {
-            factor: f * (scale / from.factor),
-            offset: f * (shift - scale * from.offset / from.factor) + o,
+            factor: line.factor / from.factor,
+            offset: line.offset - line.factor * from.offset / from.factor,
         },
         input_to_si: end.unit.map_or(Linear::IDENTITY, |to| Linear { factor: to.factor, offset: to.offset }),
+        line,
         is_force: from.powers == NEWTON,
+        place: wire.place.clone(),
     })
 }
