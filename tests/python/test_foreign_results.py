@@ -95,8 +95,18 @@ def test_parameters_that_cannot_be_are_refused_with_their_names(ttb, examples, t
     assert 'speed is a Real, not "fast"' in said and "no variable `stifness_factor`" in said
     scenario = changed(examples / "r1.json", tmp_path / "one.json", {"fmus.bridge.parameters": {"stifness_factor": 2.0}})
     assert "did you mean `stiffness_factor`?" in ttb("run", scenario, "-o", tmp_path / "out", expect=2).stderr
+    assert "did you mean `stiffness_factor`?" in ttb("export-ssp", scenario, "-o", tmp_path / "a.ssp", expect=2).stderr
     assert "ttb build gives no FMU parameters" in ttb("build", scenario, "-o", tmp_path / "out", expect=2).stderr
     auto = changed(examples / "r1.json", tmp_path / "auto.json", {"fmus.bridge.parameters": {"beta": 0.25}, "time.step": "auto"})
     assert "$.time.step: must be a number where fmus gives parameters" in ttb("check-scenario", auto, expect=2).stderr
     listed = changed(examples / "r1.json", tmp_path / "list.json", {"fmus.bridge.parameters": {"beta": [1]}})
     assert "$.fmus.bridge.parameters.beta" in ttb("check-scenario", listed, expect=2).stderr
+
+
+def test_exported_parameters_are_bound_in_the_structure(ttb, examples, tmp_path):
+    """The .ssp runs as the scenario with them."""
+    scenario = changed(examples / "r1.json", tmp_path / "s.json", {"fmus.bridge.parameters": {"stiffness_factor": 2.0}})
+    ttb("run", scenario, "-o", tmp_path / "a", "-q")
+    ttb("export-ssp", scenario, "-o", tmp_path / "s.ssp")
+    ttb("run", tmp_path / "s.ssp", "-o", tmp_path / "b", "-q")
+    assert (tmp_path / "a" / "results.csv").read_bytes() == (tmp_path / "b" / "results.csv").read_bytes()

@@ -22,7 +22,7 @@ pub use accuracy::Accuracy;
 pub use build::Build;
 pub use check::Check;
 pub use compare::{Budget, Compare, Compared, Fine};
-pub use export_ssp::ExportSsp;
+pub use export_ssp::{ExportSsp, Master};
 pub use generate::{Generate, Generated};
 pub use inspect::Inspect;
 pub use new::{Begin, New};

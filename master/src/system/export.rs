@@ -1,5 +1,6 @@
 //! `ttb export-ssp`: a scenario's two FMUs, how they are connected and how they are iterated, as one archive.
 
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use ttb_contract::names::mean_force;
@@ -9,18 +10,23 @@ use ttb_fmi::temporary::Temporary;
 use ttb_fmi2::import::read_description;
 use ttb_model_description::Date;
 use ttb_scenario::Checked;
+use ttb_scenario::types::{Fmus, ParameterValue};
 use ttb_ssp::{
     BaseUnit, Component, Connection, Connector, Content, EXTRA, Experiment, Kind, RESOURCES, Source, Stamp, Structure,
     System, Type, Unit, pack,
 };
 
 use super::annotation::{Settings, write};
-use crate::cli::ExportSsp;
+use super::resolved::bindings;
+use crate::cli::{ExportSsp, Master};
+use crate::connect::parameters;
 use crate::error::Error;
 use crate::prepare::auto::decided;
 use crate::prepare::fmus;
 
 const NAME: &str = "TrainTrackBridge";
+/// Item `end` of the train–track FMU's `input_meaning`.
+const END: f64 = 3.0;
 /// Names of the components, and their places in a drawing.
 const COMPONENTS: [(&str, [f64; 4]); 2] =
     [("TrainTrack", [0.0, 80.0, 160.0, 140.0]), ("Bridge", [0.0, 0.0, 160.0, 60.0])];
@@ -35,7 +41,7 @@ pub fn export(arguments: &ExportSsp) -> Result<PathBuf, Error> {
     let folder = Temporary::new("ttb-export-").map_err(Error::io(Path::new("temporary folder")))?;
     let built = fmus::build(&checked, prepared, folder.path())?;
     let descriptions = [describe(&built.train_track)?, describe(&built.bridge)?];
-    let structure = structure(&checked, &descriptions);
+    let structure = structure(&checked, &descriptions, arguments.master)?;
     let path = arguments.output.clone().unwrap_or_else(|| {
         let stem = arguments.scenario.as_deref().and_then(Path::file_stem).unwrap_or("default".as_ref());
         Path::new(stem).with_extension("ssp")
@@ -67,7 +73,11 @@ fn describe(fmu: &Path) -> Result<ModelDescription, Error> {
     read_description(&xml).map_err(|e| failed(e.to_string()))
 }
 
-fn structure(checked: &Checked, [train_track, bridge]: &[ModelDescription; 2]) -> Structure {
+fn structure(
+    checked: &Checked,
+    [train_track, bridge]: &[ModelDescription; 2],
+    master: Master,
+) -> Result<Structure, Error> {
     let title = Some(checked.scenario.title.clone()).filter(|title| !title.is_empty());
     let settings = Settings {
         step: Some(checked.steps().step),
@@ -81,7 +91,8 @@ fn structure(checked: &Checked, [train_track, bridge]: &[ModelDescription; 2]) -
     };
     let [first, second] = COMPONENTS.map(|(name, _)| name);
     let equal = |input: &str| input.to_string();
-    let of_force = |input: &str| if settings.substeps > 1 { mean_force(input) } else { input.to_string() };
+    let means = settings.substeps > 1 || master != Master::OnePassParallel;
+    let of_force = |input: &str| if means { mean_force(input) } else { input.to_string() };
     let forces = connections((first, train_track), (second, bridge), &of_force);
     let motions = connections((second, bridge), (first, train_track), &equal);
     let mut units: Vec<Unit> = Vec::new();
@@ -92,7 +103,21 @@ fn structure(checked: &Checked, [train_track, bridge]: &[ModelDescription; 2]) -
         }
     }
     units.sort_by(|a, b| a.name.cmp(&b.name));
-    Structure {
+    let Fmus { train_track: of_track, bridge: of_bridge } = &checked.scenario.fmus;
+    let (mut of_track, of_bridge) = (of_track.parameters.clone(), &of_bridge.parameters);
+    if master == Master::Iterating {
+        of_track.entry("input_meaning".into()).or_insert(ParameterValue::Number(END));
+    }
+    let bindings =
+        [(&of_track, train_track, first), (of_bridge, bridge, second)].map(|(parameters, description, name)| {
+            (misfits(parameters, description, name), bindings(parameters, description))
+        });
+    let problems: Vec<String> = bindings.iter().flat_map(|(problems, _)| problems.clone()).collect();
+    if !problems.is_empty() {
+        return Err(Error::Input(problems.join("\n")));
+    }
+    let [of_track, of_bridge] = bindings.map(|(_, bindings)| bindings);
+    Ok(Structure {
         name: NAME.into(),
         description: title.clone(),
         tool: Some(concat!("ttb ", env!("CARGO_PKG_VERSION")).into()),
@@ -101,8 +126,11 @@ fn structure(checked: &Checked, [train_track, bridge]: &[ModelDescription; 2]) -
             description: title,
             components: COMPONENTS
                 .iter()
-                .zip([train_track, bridge])
-                .map(|((name, geometry), description)| component(name, *geometry, description))
+                .zip([(train_track, of_track), (bridge, of_bridge)])
+                .map(|((name, geometry), (description, bindings))| {
+                    let component = component(name, *geometry, description);
+                    Component { bindings, ..component }
+                })
                 .collect(),
             connections: forces.chain(motions).collect(),
             ..System::default()
@@ -110,7 +138,13 @@ fn structure(checked: &Checked, [train_track, bridge]: &[ModelDescription; 2]) -
         units,
         enumerations: Vec::new(),
         experiment: Experiment { start: Some(0.0), stop: Some(checked.train_track.end), annotations: write(&settings) },
-    }
+    })
+}
+
+/// Parameters that the FMU has not, or cannot take.
+fn misfits(parameters: &BTreeMap<String, ParameterValue>, description: &ModelDescription, name: &str) -> Vec<String> {
+    let problems = parameters::problems(description, parameters);
+    problems.into_iter().map(|problem| format!("{name}: {problem}")).collect()
 }
 
 /// Inputs and outputs; a parameter keeps the value it has inside.
