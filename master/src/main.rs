@@ -6,7 +6,7 @@ use clap::Parser;
 use ttb::cli::{Cli, Command};
 use ttb::commands::{
     accuracy, build, check, check_scenario, compare, export_ssp, generate, help_files, host, inspect, inspect_bridge,
-    keeper, new, report, run, schema, view,
+    interoperability, keeper, new, report, run, schema, view,
 };
 use ttb::error::Error;
 use ttb::signals::Stop;
@@ -51,6 +51,7 @@ fn execute(command: Command, stop: &Stop) -> Result<(), Error> {
         Command::Accuracy(arguments) => accuracy::accuracy(&arguments, stop),
         Command::Inspect(arguments) => inspect::inspect(&arguments),
         Command::InspectBridge { file, set } => inspect_bridge::inspect(&file, &set),
+        Command::Interoperability(arguments) => interoperability::interoperability(&arguments),
         Command::ExportSsp(arguments) => export_ssp::export(&arguments),
         Command::Generate(arguments) => generate::generate(&arguments),
         Command::View(arguments) => view::view(&arguments, stop),

@@ -7,6 +7,7 @@ mod compare;
 mod export_ssp;
 mod generate;
 mod inspect;
+mod interoperability;
 mod new;
 mod report;
 mod run;
@@ -25,6 +26,7 @@ pub use compare::{Budget, Compare, Compared, Fine};
 pub use export_ssp::{ExportSsp, Master};
 pub use generate::{Generate, Generated};
 pub use inspect::Inspect;
+pub use interoperability::Interoperability;
 pub use new::{Begin, New};
 pub use report::Report;
 pub use run::{Isolate, Run};
@@ -116,6 +118,9 @@ pub enum Command {
     Accuracy(Accuracy),
     /// Show what an FMU offers and propose a map of its variables
     Inspect(Inspect),
+    /// Check and run what lies in a folder, FMUs and system structures, and write a page of counts
+    #[command(after_help = interoperability::HELP)]
+    Interoperability(Interoperability),
     /// Make a bridge model of shells and beams, and a scenario that runs a train over it
     Generate(Generate),
     /// Write the bridge for ParaView: sag under its own weight, natural modes, the crossing of the train

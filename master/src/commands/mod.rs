@@ -11,6 +11,7 @@ pub mod help_files;
 pub mod host;
 pub mod inspect;
 pub mod inspect_bridge;
+pub mod interoperability;
 pub mod keeper;
 pub mod new;
 mod output;
