@@ -83,6 +83,9 @@ def test_parameters_of_both_fmus_come_from_the_scenario_and_the_map(ttb, example
     }
     ttb("run", changed(examples / "r1.json", tmp_path / "all.json", keys), "-o", tmp_path / "b", "-q")
     assert (tmp_path / "a" / "results.csv").read_bytes() == (tmp_path / "b" / "results.csv").read_bytes()
+    sets = ["fmus.bridge.parameters.stiffness_factor=2.0", "fmus.bridge.parameters.mass_factor=1.5", "fmus.train_track.parameters.speed=50.0"]
+    ttb("run", examples / "r1.json", *(part for key in sets for part in ("--set", key)), "-o", tmp_path / "c", "-q")
+    assert (tmp_path / "c" / "results.csv").read_bytes() == (tmp_path / "b" / "results.csv").read_bytes()
     resolved = json.loads((tmp_path / "b" / "scenario.resolved.json").read_text())
     assert resolved["fmus"]["bridge"]["parameters"] == {"stiffness_factor": 2.0, "mass_factor": 1.5}
 
@@ -97,8 +100,8 @@ def test_parameters_that_cannot_be_are_refused_with_their_names(ttb, examples, t
     assert "did you mean `stiffness_factor`?" in ttb("run", scenario, "-o", tmp_path / "out", expect=2).stderr
     assert "did you mean `stiffness_factor`?" in ttb("export-ssp", scenario, "-o", tmp_path / "a.ssp", expect=2).stderr
     assert "ttb build gives no FMU parameters" in ttb("build", scenario, "-o", tmp_path / "out", expect=2).stderr
-    auto = changed(examples / "r1.json", tmp_path / "auto.json", {"fmus.bridge.parameters": {"beta": 0.25}, "time.step": "auto"})
-    assert "$.time.step: must be a number where fmus gives parameters" in ttb("check-scenario", auto, expect=2).stderr
+    auto = changed(examples / "r1.json", tmp_path / "auto.json", {"fmus.train_track.parameters": {"beta": 0.25}, "time.step": "auto"})
+    assert "$.time.step: must be a number where fmus.train_track gives parameters" in ttb("check-scenario", auto, expect=2).stderr
     listed = changed(examples / "r1.json", tmp_path / "list.json", {"fmus.bridge.parameters": {"beta": [1]}})
     assert "$.fmus.bridge.parameters.beta" in ttb("check-scenario", listed, expect=2).stderr
 

@@ -3,7 +3,8 @@
 //!
 //! A path is written with dots and numbers in brackets, `bridge.structure.spans[0].mass`. Where an object has exactly one of
 //! several keys (`km_h`, `m_s`, `profile`), setting one takes the place of the other; where it has a `type`, setting another
-//! type takes away what belongs to the former one alone. Everything else is checked as if it stood in the file.
+//! type takes away what belongs to the former one alone. Where keys are the user's own, all that follows is one of them:
+//! `fmus.bridge.parameters.Deck.EI`. Everything else is checked as if it stood in the file.
 
 use serde_json::{Map, Value};
 
@@ -85,6 +86,17 @@ fn put(root: &Value, mut at: &mut Value, parts: &[Part], key: &str, value: &Valu
         let branches: Vec<&Value> = schemas.iter().flat_map(|schema| branches(root, schema)).collect();
         match part {
             Part::Key(name) => {
+                if branches.iter().any(|branch| has_own_keys(branch)) {
+                    // Names of a user's own, such as those of an FMU's variables, may contain dots and brackets.
+                    let whole = key.strip_prefix("$.").unwrap_or(key);
+                    let own = whole.strip_prefix(&been).and_then(|rest| rest.strip_prefix('.')).unwrap_or(name);
+                    if at.is_null() {
+                        *at = Value::Object(Map::new());
+                    }
+                    let Value::Object(map) = at else { return Err(format!("{here} is {} here", short(at))) };
+                    map.insert(own.to_string(), value.clone());
+                    return Ok(());
+                }
                 let known =
                     || branches.iter().filter_map(|branch| branch["properties"].as_object()).flat_map(Map::keys);
                 if !known().any(|other| other == name) {
@@ -159,6 +171,11 @@ fn put(root: &Value, mut at: &mut Value, parts: &[Part], key: &str, value: &Valu
     }
     *at = value.clone();
     Ok(())
+}
+
+/// Whether the keys of an object are the user's own, not the scenario's.
+fn has_own_keys(branch: &Value) -> bool {
+    branch["properties"].is_null() && branch["additionalProperties"].is_object()
 }
 
 /// The constant key that tells a branch from its sisters, if it has one.
