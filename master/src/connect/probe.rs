@@ -58,15 +58,22 @@ pub fn judge(
     let mut problems = Vec::new();
     for ((name, part), response) in parts.iter().zip(&probe.responses) {
         let Some(mismatch) = response.mismatch() else { continue };
-        let told = format!("{name}: {}", part.says(&mismatch, response));
+        let said = part.says(&mismatch, response);
+        // There is no map of a system's FMUs that could be mended.
+        let said = if rules == Rules::Deck { said.as_str() } else { said.split("; give ").next().unwrap_or_default() };
+        let told = format!("{name}: {said}");
         if rules.refuse(&mismatch) { problems.push(told) } else { warnings.push(told) }
     }
     if problems.is_empty() {
         return Ok(warnings);
     }
+    let mend = if rules == Rules::Deck {
+        "Factors are those of the map: their value = factor · ours in N, m, m/s, down positive (--map, docs/guide/bridges.md)."
+    } else {
+        "Signs and units can be changed by a LinearTransformation on the connections (docs/guide/ssp.md)."
+    };
     Err(RunError::Refused(Refusal::Input(format!(
-        "{}\nTrial forces before the first step show this. Factors are those of the map: their value = factor · ours in N, m, \
-         m/s, down positive (--map, docs/guide/bridges.md). If all is as it should be: --no-probe.",
+        "{}\nTrial forces before the first step show this. {mend} If all is as it should be: --no-probe.",
         problems.join("\n")
     ))))
 }
