@@ -118,6 +118,7 @@ fn damping_and_modes() {
 fn parameters_name_their_rule() {
     for (name, value, rule) in [
         ("damping_ratio", 1.5, "between 0 and 1"),
+        ("input_meaning", 3.0, "1 (mean) or 2 (end)"),
         ("stiffness_factor", 0.0, "positive"),
         ("mass_factor", -1.0, "positive"),
         ("step_size", 0.0, "positive"),
@@ -173,8 +174,10 @@ fn the_interface_list_is_the_contract() {
     expected.extend((1..=5).map(|i| format!("support[{i}].displacement")));
     expected.extend((1..=5).map(|i| format!("support[{i}].velocity")));
     expected.extend(["displacement", "velocity", "acceleration", "moment"].map(|what| format!("point[mid].{what}")));
-    expected
-        .extend(["damping_ratio", "stiffness_factor", "mass_factor", "step_size", "gamma", "beta"].map(String::from));
+    expected.extend(
+        ["damping_ratio", "stiffness_factor", "mass_factor", "step_size", "gamma", "beta", "input_meaning"]
+            .map(String::from),
+    );
     assert_eq!(names, expected);
     assert!(bridge.interface().variables().iter().all(|v| !v.feed_through && !v.name.contains(',')));
 }
