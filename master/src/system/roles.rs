@@ -22,7 +22,7 @@ pub fn train_track(
     for from in [0, 1] {
         if !links.iter().any(|link| link.from == from) {
             let (a, b) = (&sides[from].0.name, &sides[1 - from].0.name);
-            report.problem("", format!("no usable connection leads from {a} to {b}: there is nothing to iterate"));
+            report.problem("", format!("no usable connection leads from {a:?} to {b:?}: there is nothing to iterate"));
             return None;
         }
     }

@@ -83,7 +83,7 @@ pub fn interoperability(arguments: &Interoperability) -> Result<(), Error> {
     match &arguments.output {
         Some(path) => files::write(path, text.as_bytes()),
         None => {
-            say!("{text}");
+            say!("{}", text.trim_end());
             Ok(())
         }
     }

@@ -20,7 +20,7 @@ pub fn page(rows: &[Row], files: bool) -> String {
         format_args!(
             "Made by `ttb interoperability` {}: {} FMUs, of which {} run; {} system structures, of which {} run. An FMU runs if it \
              can be loaded, initialized and stepped here; findings are those of `ttb check`. A system runs if `ttb run` ends \
-             without failure, or still runs after the time that was given.\n",
+             without failure, or still runs after the time that was given.",
             env!("CARGO_PKG_VERSION"),
             counts[0].0,
             counts[0].1,
@@ -48,7 +48,7 @@ pub fn page(rows: &[Row], files: bool) -> String {
             put(&mut text, format_args!("| {path} | {tool} | {found} | {why} |"));
         }
     }
-    text.trim_end().to_string()
+    format!("{}\n", text.trim_end())
 }
 
 fn put(text: &mut String, line: std::fmt::Arguments) {
