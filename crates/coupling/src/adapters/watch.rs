@@ -46,8 +46,11 @@ impl Watch {
         Self { at, places, now: rest(), before: rest(), saved: rest(), h: 0.0, recorded: Vec::new() }
     }
 
-    /// The deck moves so at its own places: displacements, then velocities.
+    /// The deck moves so at its own places: displacements, then velocities. Where nothing is recorded this costs nothing.
     pub fn see(&mut self, own: &[f64]) {
+        if self.recorded.is_empty() {
+            return;
+        }
         self.at.motions(own, &mut self.now);
     }
 
