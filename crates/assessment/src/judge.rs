@@ -190,7 +190,12 @@ impl<'a> Judge<'a> {
     /// Why there is no row.
     fn why_missing(&self, filter: ResolvedFilter) -> String {
         let (quantity, label) = (&self.criterion.quantity, filter.filter.label());
-        let told = self.results.missing.iter().find(|one| one.quantity == *quantity && one.filter == label);
+        let statistic = self.criterion.statistic.name();
+        let told = self.results.missing.iter().find(|one| {
+            one.quantity == *quantity
+                && one.filter == label
+                && one.statistic.as_ref().is_none_or(|missing| missing == statistic)
+        });
         if let Some(missing) = told {
             return missing.reason.clone();
         }

@@ -1,8 +1,13 @@
 //! What a row of results belongs to: which train ran how fast over which rail.
 
+use std::collections::BTreeMap;
+
 use serde::{Deserialize, Serialize};
 
-use crate::peak::Peak;
+use crate::amplification::phi_dyn;
+use crate::filter::RAW;
+use crate::peak::quantity::{DECK_DISPLACEMENT, PHI_DYN};
+use crate::peak::{Peak, Statistic};
 
 /// What loads the bridge.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
@@ -77,6 +82,37 @@ pub struct Results {
     pub missing: Vec<Missing>,
 }
 
+impl Results {
+    /// With φ′_dyn = max|y_dyn|/max|y_stat| − 1 of every run that has static values of its displacements, at the place of its
+    /// greatest displacement.
+    #[must_use]
+    pub fn with_amplification(mut self) -> Self {
+        let mut greatest: BTreeMap<usize, &Peak> = BTreeMap::new();
+        for (run, peak) in &self.rows {
+            let known = peak.static_value.is_some_and(|value| value != 0.0);
+            if peak.quantity == DECK_DISPLACEMENT && peak.filter == RAW && known {
+                let best = greatest.entry(*run).or_insert(peak);
+                if peak.value.abs() > best.value.abs() {
+                    *best = peak;
+                }
+            }
+        }
+        let has = |run: usize| self.rows.iter().any(|(of, peak)| *of == run && peak.quantity == PHI_DYN);
+        let phi = |(run, peak): (usize, &Peak)| {
+            let value = phi_dyn(peak.value, peak.static_value?)?;
+            let row = Peak { unit: "1".into(), static_value: None, ..peak.clone() };
+            Some((run, Peak { quantity: PHI_DYN.into(), statistic: Statistic::Max, value, ..row }))
+        };
+        let rows: Vec<(usize, Peak)> = if greatest.keys().any(|run| has(*run)) {
+            Vec::new()
+        } else {
+            greatest.into_iter().filter_map(phi).collect()
+        };
+        self.rows.extend(rows);
+        self
+    }
+}
+
 /// A value that could not be made.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -85,6 +121,9 @@ pub struct Missing {
     pub quantity: String,
     /// Label of the filter.
     pub filter: String,
+    /// Name of the statistic; `None`: none can be made.
+    #[serde(default)]
+    pub statistic: Option<String>,
     /// Why, a sentence without its full stop.
     pub reason: String,
 }

@@ -155,6 +155,7 @@ fn what_is_not_known_is_not_judged_and_says_what_to_give() {
     short.missing.push(Missing {
         quantity: "body.comfort-n-mv".into(),
         filter: "wb-en12299".into(),
+        statistic: None,
         reason: "N_MV of EN 12299 needs 300 s; the record has 8".into(),
     });
     let found = &verdict(&criteria, &facts("ballast"), &short, "comfort-n-mv")[0];
@@ -206,4 +207,26 @@ fn criteria_name_the_filters_that_a_run_must_make() {
     assert_eq!(of("deck.acceleration"), ["butterworth-4-36Hz-zero", "raw"]);
     assert_eq!(of("wheel.unloading"), ["butterworth-4-20Hz-zero", "raw", "mean-2m"]);
     assert!(of("deck.twist").is_empty());
+}
+
+#[test]
+fn amplification_is_that_at_the_place_of_the_greatest_displacement() {
+    let criteria = Criteria::bundled(&["en1991-2-2003"]).expect("bundled");
+    let mut results = Results { runs: vec![run("r0", 200.0, FORCES)], ..Results::default() };
+    for (place, value, statically) in [("0.1L", 0.004, 0.001), ("0.5L", -0.012, 0.008)] {
+        let row = peak("deck.displacement", Statistic::AbsMax, "raw", value);
+        results.rows.push((0, Peak { static_value: Some(statically), place: place.into(), ..row }));
+    }
+    let found = &verdict(&criteria, &facts("ballast"), &results.with_amplification(), "phi")[0];
+    assert_eq!((found.status, found.place.as_deref()), (Status::Informative, Some("deck 0.5L")));
+    assert!((found.value.expect("a value") - 0.5).abs() < 1e-12);
+}
+
+#[test]
+fn a_users_file_names_project_and_checker() {
+    let text = r#"{ "people": { "project": "Line 7", "checker": "A. N. Other" } }"#;
+    let criteria = Criteria::read([("mine.json", text)]).expect("people");
+    assert_eq!(criteria.people.len(), 2);
+    let wrong = Criteria::read([("mine.json", r#"{ "people": { "project": 7 } }"#)]).expect_err("a number");
+    assert_eq!(wrong[0].to_string(), "mine.json: $.people.project: must be a text: 7");
 }

@@ -43,7 +43,7 @@ impl Opened {
                 folder.display()
             )));
         }
-        let mut results = tables::read(folder)?;
+        let mut results = tables::read(folder)?.with_amplification();
         let (plan, summary) = (json(&folder.join(PLAN))?, json(&folder.join("summary.json"))?);
         let mut warnings = Vec::new();
         let checked = scenario(folder, plan.as_ref(), &mut warnings);

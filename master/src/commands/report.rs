@@ -21,7 +21,7 @@ pub fn report(arguments: &Report) -> Result<(), Error> {
     let criteria = limits::load(names)?;
     let verdicts = judge(&criteria, &opened.assessment.facts, &opened.results);
     files::write_json(&arguments.folder.join(VERDICTS), &verdicts)?;
-    let page = report::page(&opened, &verdicts)?;
+    let page = report::page(&opened, &verdicts, &criteria.people)?;
     let path = arguments.output.clone().unwrap_or_else(|| arguments.folder.join("report.html"));
     files::write(&path, page.as_bytes())?;
     if !arguments.quiet {

@@ -46,7 +46,7 @@ const FACTS: Shape = Shape {
     inner: &[],
 };
 pub(super) const FILE: Shape = Shape {
-    keys: &["code", "edition", "source", "note", "facts", "criteria"],
+    keys: &["code", "edition", "source", "note", "facts", "people", "criteria"],
     inner: &[("facts", &FACTS), ("criteria", &CRITERION)],
 };
 

@@ -53,6 +53,8 @@ pub struct Criteria {
     pub all: Vec<Criterion>,
     /// Facts that the user's files give.
     pub facts: Facts,
+    /// What the user's files say for the head of a report: project, author, checker; name and text.
+    pub people: Vec<[String; 2]>,
     /// Names of the files.
     pub files: Vec<String>,
 }
@@ -69,7 +71,10 @@ impl Criteria {
         for (name, text) in files {
             set.files.push(name.into());
             match serde_json::from_str::<Value>(text) {
-                Ok(file) => add(name, &file, &mut entries, &mut set.facts, &mut problems),
+                Ok(file) => {
+                    people(name, &file, &mut set.people, &mut problems);
+                    add(name, &file, &mut entries, &mut set.facts, &mut problems);
+                }
                 Err(error) => problems.push(problem(name, "", "must be JSON", error.to_string())),
             }
         }
@@ -134,6 +139,16 @@ pub(crate) fn unknown_file(name: &str) -> LimitsProblem {
 
 fn problem(file: &str, path: &str, rule: &str, value: impl Into<String>) -> LimitsProblem {
     LimitsProblem { file: file.into(), path: path.into(), rule: rule.into(), value: value.into(), suggestion: None }
+}
+
+/// Adds one file's free fields.
+fn people(name: &str, file: &Value, people: &mut Vec<[String; 2]>, problems: &mut Vec<LimitsProblem>) {
+    for (key, value) in file.get("people").and_then(Value::as_object).into_iter().flatten() {
+        match value.as_str() {
+            Some(text) => people.push([key.clone(), text.into()]),
+            None => problems.push(problem(name, &format!("$.people.{key}"), "must be a text", value.to_string())),
+        }
+    }
 }
 
 /// Adds one file's entries, and its facts.

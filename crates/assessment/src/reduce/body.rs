@@ -54,10 +54,15 @@ fn accelerations(name: &str, signal: &[f64], record: Record, asked: &Asked, out:
             continue;
         };
         push(Statistic::Rms, rms(&filtered), None);
+        let mut short = Vec::new();
         for (statistic, seconds) in [(Statistic::Rms1sMax, 1.0), (Statistic::Rms5sMax, BLOCK)] {
-            if let Ok((value, at)) = running_rms(&filtered, record.rate, seconds) {
-                push(statistic, value, Some(at));
+            match running_rms(&filtered, record.rate, seconds) {
+                Ok((value, at)) => push(statistic, value, Some(at)),
+                Err(reason) => short.push((statistic, reason)),
             }
+        }
+        for (statistic, reason) in short {
+            out.miss_statistic(BODY_ACCELERATION, &filter, Some(statistic), &reason);
         }
         if curve == Weighting::WbEn12299 {
             match n_mv(&filtered, record.rate) {

@@ -100,7 +100,8 @@ pub fn reduce(histories: &Histories, criteria: &Criteria, facts: &Facts) -> Redu
     let Some(record) = Record::of(&histories.time) else {
         let reason = "the run has fewer than two rows, or its steps are not equal".to_string();
         for (quantity, filter) in asked.filters {
-            out.missing.push(Missing { quantity, filter: filter.label(), reason: reason.clone() });
+            let (filter, reason) = (filter.label(), reason.clone());
+            out.missing.push(Missing { quantity, filter, statistic: None, reason });
         }
         return out;
     };
@@ -110,7 +111,11 @@ pub fn reduce(histories: &Histories, criteria: &Criteria, facts: &Facts) -> Redu
     }
     histories.cars.iter().for_each(|car| body::reduce(car, record, &asked, &mut out));
     let found = |missing: &Missing, peaks: &[Peak]| {
-        peaks.iter().any(|peak| peak.quantity == missing.quantity && peak.filter == missing.filter)
+        peaks.iter().any(|peak| {
+            peak.quantity == missing.quantity
+                && peak.filter == missing.filter
+                && missing.statistic.as_ref().is_none_or(|name| peak.statistic.name() == name)
+        })
     };
     out.missing.retain(|missing| !found(missing, &out.peaks));
     out
@@ -194,7 +199,13 @@ impl Place<'_> {
 
 impl Reduced {
     fn miss(&mut self, quantity: &str, filter: &Filter, reason: &SignalError) {
-        let missing = Missing { quantity: quantity.into(), filter: filter.label(), reason: reason.to_string() };
+        self.miss_statistic(quantity, filter, None, reason);
+    }
+
+    fn miss_statistic(&mut self, quantity: &str, filter: &Filter, statistic: Option<Statistic>, reason: &SignalError) {
+        let statistic = statistic.map(|statistic| statistic.name().to_string());
+        let (quantity, filter, reason) = (quantity.into(), filter.label(), reason.to_string());
+        let missing = Missing { quantity, filter, statistic, reason };
         if !self.missing.contains(&missing) {
             self.missing.push(missing);
         }

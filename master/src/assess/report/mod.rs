@@ -31,7 +31,7 @@ const FILES: [(&str, &str); 12] = [
 ];
 
 /// The page.
-pub fn page(opened: &Opened, verdicts: &Verdicts) -> Result<String, Error> {
+pub fn page(opened: &Opened, verdicts: &Verdicts, people: &[[String; 2]]) -> Result<String, Error> {
     let text = |value: &Value| value.as_str().map(str::to_string);
     let trains = trains::all(opened);
     let (bridge, modal) = bridge::of(opened);
@@ -48,7 +48,7 @@ pub fn page(opened: &Opened, verdicts: &Verdicts) -> Result<String, Error> {
     let title = if opened.assessment.title.is_empty() { "Assessment".into() } else { opened.assessment.title.clone() };
     let input = Input {
         title,
-        people: Vec::new(),
+        people: people.to_vec(),
         version: env!("CARGO_PKG_VERSION").into(),
         date: date()?,
         hash: summary
