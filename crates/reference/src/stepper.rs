@@ -175,7 +175,8 @@ impl<'a> Stepper<'a> {
     /// p_c and q_free of all cars.
     fn begin_cars(&mut self) {
         for (c, (car, inverse)) in self.whole.cars.iter().zip(&self.cars).enumerate() {
-            let (own, p) = (c * DOFS..(c + 1) * DOFS, car.history(&self.newmark, &self.state.cars, c));
+            let (own, old) = (c * DOFS..(c + 1) * DOFS, &self.state.cars);
+            let p = car.history(&self.newmark, &old.u[own.clone()], &old.v[own.clone()], &old.a[own.clone()]);
             self.cars_load[own.clone()].copy_from_slice(p.as_slice());
             self.cars_free[own].copy_from_slice((inverse * p).as_slice());
         }

@@ -82,6 +82,9 @@ impl Whole {
     /// # Errors
     /// Modal damping, matrices that cannot be factorised, data that a subsystem refuses.
     pub(crate) fn assemble(train: &TrainTrackSpec, spec: &BridgeSpec) -> Result<Self, ReferenceError> {
+        if !train.vehicles.is_empty() {
+            return Err(case("the methods of the paper know cars of 10 degrees of freedom only"));
+        }
         let assembled = match &spec.structure {
             StructureSpec::Beams { .. } | StructureSpec::Frame(_) => plane::assemble(spec),
             StructureSpec::FiniteElements(model) => space::assemble(model, &spec.supports, &spec.points),

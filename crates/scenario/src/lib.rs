@@ -28,11 +28,12 @@ pub mod spec;
 pub mod step;
 pub mod travel;
 pub mod types;
+pub mod vehicle;
 mod walk;
 
 pub use believable::{Believable, believable};
 pub use bundled::default_scenario_text;
-pub use load::{Checked, from_str, from_str_with, load, load_with, read_as};
+pub use load::{Checked, ForceLookUp, from_str, from_str_using, from_str_with, load, load_using, load_with, read_as};
 pub use place::Chosen;
 pub use problem::{Problem, Problems, Warning, nearest};
 pub use schema::{model_schema, schema};

@@ -16,9 +16,9 @@ use crate::pieces::Pieces;
 use crate::place::{Chosen, place};
 use crate::problem::{MUST_FIT, Problems, Report, Warning};
 use crate::settings::Setting;
-use crate::spec::{BridgeSpec, StructureSpec, TrainTrackSpec};
+use crate::spec::{BridgeSpec, StructureSpec, TrainTrackSpec, Vehicle};
 use crate::step::Steps;
-use crate::types::{Car, Scenario};
+use crate::types::{Forces, Scenario};
 use crate::{check, json, passage, resolve, schema, settings, walk};
 
 /// A scenario without problems.
@@ -73,13 +73,28 @@ pub fn load(path: &Path) -> Result<Checked, Problems> {
 /// # Errors
 /// As [`load`], and settings of keys that no scenario has.
 pub fn load_with(path: &Path, settings: &[Setting]) -> Result<Checked, Problems> {
+    let (text, name) = text(path)?;
+    from_str_with(&text, path.parent().unwrap_or(Path::new("")), &name, settings)
+}
+
+/// As [`load_with`], with somebody who knows trains of forces by name.
+///
+/// # Errors
+/// As [`from_str_using`].
+pub fn load_using(path: &Path, settings: &[Setting], forces: &ForceLookUp) -> Result<Checked, Problems> {
+    let (text, name) = text(path)?;
+    from_str_using(&text, path.parent().unwrap_or(Path::new("")), &name, settings, forces)
+}
+
+/// The content of a scenario file and its name.
+fn text(path: &Path) -> Result<(String, String), Problems> {
     let name = path.display().to_string();
     let text = ttb_import::text(path).map_err(|error| {
         let mut report = Report::new(&name);
         report.problem("", "the scenario file cannot be read", error);
         report.into_problems()
     })?;
-    from_str_with(&text, path.parent().unwrap_or(Path::new("")), &name, settings)
+    Ok((text, name))
 }
 
 /// Checks a scenario given as text.
@@ -97,11 +112,31 @@ pub fn from_str(text: &str, base_dir: &Path, file_name: &str) -> Result<Checked,
 /// # Errors
 /// As [`from_str`], and settings of keys that no scenario has.
 pub fn from_str_with(text: &str, base_dir: &Path, file_name: &str, settings: &[Setting]) -> Result<Checked, Problems> {
+    from_str_using(text, base_dir, file_name, settings, &|_, _| {
+        Err("names of trains of forces are known where trains are: give the axles as [m, N]".into())
+    })
+}
+
+/// Axles (m behind the first one, N) of a train of forces by its name or file, which is looked for from a folder; or why not.
+pub type ForceLookUp<'a> = dyn Fn(&str, &Path) -> Result<Vec<[f64; 2]>, String> + 'a;
+
+/// As [`from_str_with`], with somebody who knows trains of forces by name.
+///
+/// # Errors
+/// As [`from_str_with`], and names that stand for no train.
+pub fn from_str_using(
+    text: &str,
+    base_dir: &Path,
+    file_name: &str,
+    settings: &[Setting],
+    forces: &ForceLookUp,
+) -> Result<Checked, Problems> {
     let mut report = Report::new(file_name);
     let Some(mut document) = json::read(text, &mut report) else {
         return Err(report.into_problems());
     };
     settings::apply(settings, &mut document, &mut report);
+    look_up(&mut document.value, base_dir, forces, &mut report);
     walk::walk(&schema::SCENARIO, &document.value, &document.reported, &mut report);
     let pieces = Pieces::read(&document.value);
     let resolved = resolve::resolve(&pieces, base_dir, &mut report);
@@ -140,7 +175,7 @@ pub fn from_str_with(text: &str, base_dir: &Path, file_name: &str, settings: &[S
         chosen,
         peaks,
         hash: hash(&train_track, &bridge, &scenario),
-        axle_load: train_track.cars.iter().map(Car::axle_load).fold(0.0, f64::max),
+        axle_load: train_track.consist().iter().flat_map(Vehicle::axles).map(|[load, _]| load).fold(0.0, f64::max),
         scenario,
         train_track,
         bridge,
@@ -164,6 +199,16 @@ pub fn read_as<T: DeserializeOwned>(text: &str, schema: &Value, file_name: &str)
         }
     }
     Err(report.into_problems())
+}
+
+/// Puts the axles in the place of a named train of forces.
+fn look_up(value: &mut Value, base_dir: &Path, forces: &ForceLookUp, report: &mut Report) {
+    let Some(place) = value.pointer_mut("/train/forces") else { return };
+    let Some(name) = place.as_str().map(str::to_string) else { return };
+    match forces(&name, base_dir) {
+        Ok(axles) => *place = serde_json::to_value(Forces::Axles(axles)).unwrap_or_default(),
+        Err(why) => report.problem("$.train.forces", "must be a train of forces", format!("`{name}`: {why}")),
+    }
 }
 
 fn hash(train_track: &TrainTrackSpec, bridge: &BridgeSpec, scenario: &Scenario) -> String {

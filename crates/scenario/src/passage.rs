@@ -3,13 +3,13 @@
 use crate::deck::Deck;
 use crate::problem::Report;
 use crate::spec::{BridgeSpec, TrainTrackSpec};
-use crate::travel::{distance, time_of, wheel_offsets};
+use crate::travel::{distance, time_of};
 use crate::types::{PeaksFrom, PeaksWord, Scenario};
 
 /// When the first wheel comes onto the bridge and the last one leaves it, s; a time that is not reached is infinite.
 #[must_use]
 pub fn on_bridge(train: &TrainTrackSpec, at: f64, length: f64) -> [f64; 2] {
-    let last = wheel_offsets(&train.cars).last().copied().unwrap_or(0.0);
+    let last = train.offsets().last().copied().unwrap_or(0.0);
     [at, at + length + last].map(|x| time_of(&train.speed, x - train.front_wheel).unwrap_or(f64::INFINITY))
 }
 
@@ -22,7 +22,7 @@ pub(crate) fn peaks(scenario: &Scenario, train: &TrainTrackSpec, bridge: &Bridge
         PeaksFrom::Seconds(from) => [from.min(train.end), train.end],
         PeaksFrom::Word(PeaksWord::Bridge) => {
             let [first, last] = on_bridge(train, scenario.bridge.at, length);
-            let before = train.front_wheel - wheel_offsets(&train.cars).last().copied().unwrap_or(0.0);
+            let before = train.front_wheel - train.offsets().last().copied().unwrap_or(0.0);
             let passed = before > scenario.bridge.at + length;
             if first <= train.end && !passed {
                 return [first, (last + free).min(train.end)];

@@ -4,14 +4,15 @@ use serde::de::DeserializeOwned;
 use serde_json::Value;
 
 use crate::types::{
-    Bridge, CarChoice, Contact, CouplingSettings, Csv, Damping, Irregularity, Newmark, Point, Rail, RailPoint, Speed,
-    Structure, Time, Track, TrackChoice, Train,
+    Bridge, CarChoice, Contact, CouplingSettings, Csv, Damping, Forces, Irregularity, Newmark, Point, Rail, RailPoint,
+    Speed, Structure, Time, Track, TrackChoice, Train,
 };
 
 /// Whatever can be read; `None` is what the schema's walker has complained about.
 pub(crate) struct Pieces {
     pub train: Option<Train>,
     pub cars: Vec<Option<CarChoice>>,
+    pub forces: Option<Forces>,
     pub speed: Option<Speed>,
     pub contact: Option<Contact>,
     pub track: Option<Track>,
@@ -31,6 +32,9 @@ pub(crate) struct Pieces {
     /// Keys that are there, whatever they say.
     pub has_track_type: bool,
     pub has_step: bool,
+    pub has_train: bool,
+    pub has_cars: bool,
+    pub has_forces: bool,
     pub has_points: bool,
     pub csv: Option<Csv>,
 }
@@ -40,6 +44,10 @@ impl Pieces {
         Self {
             train: piece(&scenario["train"]),
             cars: list(&scenario["train"]["cars"]),
+            forces: piece(&scenario["train"]["forces"]),
+            has_train: scenario["train"].is_object(),
+            has_cars: !scenario["train"]["cars"].is_null(),
+            has_forces: !scenario["train"]["forces"].is_null(),
             speed: piece(&scenario["train"]["speed"]),
             contact: or_default(&scenario["contact"]),
             track: or_default(&scenario["track"]),

@@ -24,7 +24,7 @@ use crate::problem::Report;
 use crate::resolve::Resolved;
 use crate::spans::first_frequency;
 use crate::spec::Profile;
-use crate::travel::{distance, speed_at, time_of, wheel_offsets};
+use crate::travel::{distance, speed_at, time_of, vehicle_offsets};
 use crate::types::{Damping, Irregularity, Point, RayleighAt, Structure};
 
 /// Shortest approach, m, and its duration, s.
@@ -87,7 +87,7 @@ pub(crate) fn place(pieces: &Pieces, resolved: &Resolved, report: &mut Report) -
         speed.iter().all(|[_, v]| *v >= 0.0) && speed.windows(2).all(|pair| pair[0][0] < pair[1][0])
     };
     let Some(speed) = resolved.speed.as_ref().filter(moving) else { return placed };
-    let length = resolved.cars.as_ref().and_then(|cars| wheel_offsets(cars).last().copied());
+    let length = resolved.cars.as_ref().and_then(|cars| vehicle_offsets(cars).last().copied());
     let v = speed_at(speed, 0.0);
     let bridge = pieces.at.zip(deck.as_ref().map(|deck| deck.length));
 

@@ -10,15 +10,16 @@ use crate::pieces::Pieces;
 use crate::place::Placement;
 use crate::problem::Report;
 use crate::spans;
-use crate::spec::{BridgeSpec, Profile, StructureSpec, TrainTrackSpec};
+use crate::spec::{BridgeSpec, Profile, StructureSpec, TrainTrackSpec, Vehicle};
 use crate::step::{Excited, Steps};
 use crate::types::{
-    Car, CarChoice, FrameChoice, Irregularity, Model, ModelChoice, Scenario, Speed, Structure, TrackChoice, TrackType,
+    self, Car, CarChoice, Forces, FrameChoice, Irregularity, Model, ModelChoice, Scenario, Speed, Structure,
+    TrackChoice, TrackType,
 };
 
 /// What the names in a scenario stand for; `None` where that cannot be told, which has been reported.
 pub(crate) struct Resolved {
-    pub cars: Option<Vec<Car>>,
+    pub cars: Option<Vec<Vehicle>>,
     /// Points (time s, speed m/s).
     pub speed: Option<Vec<[f64; 2]>>,
     pub track: Option<TrackType>,
@@ -28,9 +29,10 @@ pub(crate) struct Resolved {
 
 /// Looks up names and reads the measured irregularity, relative to `base_dir`.
 pub(crate) fn resolve(pieces: &Pieces, base_dir: &Path, report: &mut Report) -> Resolved {
-    let cars: Option<Vec<Vec<Car>>> = pieces.cars.iter().map(|choice| cars(choice.as_ref()?)).collect();
+    let cars: Option<Vec<Vec<Vehicle>>> = pieces.cars.iter().map(|choice| cars(choice.as_ref()?)).collect();
+    let cars = cars.map(|cars| cars.concat()).filter(|cars| !cars.is_empty());
     Resolved {
-        cars: cars.map(|cars| cars.concat()).filter(|cars| !cars.is_empty()),
+        cars: cars.or_else(|| forces(pieces.forces.as_ref()?)),
         speed: pieces.speed.as_ref().map(speed),
         track: pieces.track_type.as_ref().and_then(track),
         profile: pieces.irregularity.as_ref().and_then(|chosen| profile(chosen, base_dir, report)),
@@ -38,11 +40,18 @@ pub(crate) fn resolve(pieces: &Pieces, base_dir: &Path, report: &mut Report) -> 
     }
 }
 
-fn cars(choice: &CarChoice) -> Option<Vec<Car>> {
+fn cars(choice: &CarChoice) -> Option<Vec<Vehicle>> {
     match choice {
-        CarChoice::Bundled(name) => bundled::cars(name),
-        CarChoice::Data(car) => Some(vec![(**car).clone()]),
+        CarChoice::Bundled(name) => Some(bundled::cars(name)?.into_iter().map(Vehicle::Car).collect()),
+        CarChoice::Data(car) => Some(vec![Vehicle::Car((**car).clone())]),
+        CarChoice::Vehicle(vehicle) => Some(vec![Vehicle::Bodies((**vehicle).clone())]),
     }
+}
+
+/// Names have been looked up before.
+fn forces(forces: &Forces) -> Option<Vec<Vehicle>> {
+    let Forces::Axles(axles) = forces else { return None };
+    Some(vec![Vehicle::Bodies(types::Vehicle::of_forces(axles))])
 }
 
 fn speed(speed: &Speed) -> Vec<[f64; 2]> {
@@ -125,8 +134,15 @@ pub(crate) fn specs(scenario: &Scenario, resolved: Resolved) -> Option<(TrainTra
     let (from, bays, end) = (laid.from?, laid.bays?, time.end?);
     let given = Steps { step: time.step.given().unwrap_or(end), substeps: time.substeps.unwrap_or(1) };
     let supports = Deck::new(&structure)?.supports(bridge.at, from, track.spacing, bays + 1, bridge.over_bearings);
+    let vehicles = resolved.cars?;
+    let car = |vehicle: &Vehicle| match vehicle {
+        Vehicle::Car(car) => Some(car.clone()),
+        Vehicle::Bodies(_) => None,
+    };
+    let cars: Option<Vec<Car>> = vehicles.iter().map(car).collect();
     let mut train_track = TrainTrackSpec {
-        cars: resolved.cars?,
+        vehicles: if cars.is_some() { Vec::new() } else { vehicles },
+        cars: cars.unwrap_or_default(),
         front_wheel: scenario.train.front_wheel?,
         speed: resolved.speed?,
         pre_roll: scenario.train.pre_roll?,

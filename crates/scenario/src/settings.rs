@@ -119,8 +119,7 @@ fn put(root: &Value, mut at: &mut Value, parts: &[Part], key: &str, value: &Valu
                 let having = |branch: &&Value| branch["properties"].get(name).is_some();
                 let mut fitting: Vec<&Value> = branches.iter().copied().filter(having).collect();
                 // One of several keys takes the place of the other.
-                let single =
-                    |branch: &Value| branch["required"].as_array().is_some_and(|all| all.len() == 1 && all[0] == *name);
+                let single = |branch: &Value| branch["properties"].as_object().is_some_and(|all| all.len() == 1);
                 if branches.len() > 1 && fitting.len() == 1 && single(fitting[0]) && tag(fitting[0]).is_none() {
                     map.retain(|other, _| other == name);
                 }

@@ -4,13 +4,19 @@ use std::path::PathBuf;
 
 use serde::{Deserialize, Serialize};
 
-use crate::types::{Car, Contact, Damping, Frame, Model, Newmark, Point, RailPoint, Ramp, Reduction, TrackType, Wave};
+use crate::types::{
+    self, Car, Contact, Damping, Frame, Model, Newmark, Point, RailPoint, Ramp, Reduction, TrackType, Wave,
+};
+use crate::vehicle::Equations;
 
 /// All the train–track subsystem is built from (`resources/train-track.json`).
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct TrainTrackSpec {
-    /// Cars from the front.
+    /// Cars from the front; empty if a vehicle of the train is something else.
     pub cars: Vec<Car>,
+    /// All vehicles from the front, if not all of them are cars; else empty.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub vehicles: Vec<Vehicle>,
     /// Abscissa of the leading wheel at the start, m.
     pub front_wheel: f64,
     /// Speed points (time s after the start, m/s), at least one, times increasing.
@@ -45,6 +51,72 @@ pub struct TrainTrackSpec {
     pub end: f64,
     /// Newmark's parameters.
     pub newmark: Newmark,
+}
+
+/// What a train is made of.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(untagged)]
+pub enum Vehicle {
+    /// A car of 10 degrees of freedom.
+    Car(Car),
+    /// Bodies, wheels and links.
+    Bodies(types::Vehicle),
+}
+
+impl Vehicle {
+    /// Length over couplers, m.
+    #[must_use]
+    pub fn length(&self) -> f64 {
+        match self {
+            Self::Car(car) => car.length,
+            Self::Bodies(vehicle) => vehicle.length(),
+        }
+    }
+
+    /// Number of its wheelsets.
+    #[must_use]
+    pub fn wheels(&self) -> usize {
+        match self {
+            Self::Car(_) => 4,
+            Self::Bodies(vehicle) => vehicle.wheels.len(),
+        }
+    }
+
+    /// Static load in N and mass in kg of every wheelset; none of a vehicle that cannot be built.
+    #[must_use]
+    pub fn axles(&self) -> Vec<[f64; 2]> {
+        match self {
+            Self::Car(car) => vec![[car.axle_load(), car.wheelset_mass]; 4],
+            Self::Bodies(vehicle) => {
+                let loads = Equations::new(vehicle).map(|equations| equations.loads).unwrap_or_default();
+                loads.iter().zip(&vehicle.wheels).map(|(load, wheel)| [*load, wheel.mass]).collect()
+            }
+        }
+    }
+}
+
+impl TrainTrackSpec {
+    /// All vehicles from the front.
+    #[must_use]
+    pub fn consist(&self) -> Vec<Vehicle> {
+        if self.vehicles.is_empty() {
+            self.cars.iter().cloned().map(Vehicle::Car).collect()
+        } else {
+            self.vehicles.clone()
+        }
+    }
+
+    /// Length of the whole train over couplers, m.
+    #[must_use]
+    pub fn length(&self) -> f64 {
+        self.consist().iter().map(Vehicle::length).sum()
+    }
+
+    /// Number of wheelsets.
+    #[must_use]
+    pub fn axle_count(&self) -> usize {
+        self.consist().iter().map(Vehicle::wheels).sum()
+    }
 }
 
 /// A resolved irregularity.

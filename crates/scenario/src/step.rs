@@ -3,8 +3,8 @@
 use std::f64::consts::TAU;
 
 use crate::limits::MOST_CHOSEN_SUBSTEPS;
-use crate::spec::{Profile, TrainTrackSpec};
-use crate::types::{Car, Support};
+use crate::spec::{Profile, TrainTrackSpec, Vehicle};
+use crate::types::Support;
 
 /// Macro steps a period of the highest frequency that comes onto the bridge, sub-steps a period of the wheel–rail resonance:
 /// Newmark's trapezoidal rule then makes a period 9 %, 5 % too long.
@@ -65,15 +65,16 @@ impl Excited {
         let b = (1.0 / (4.0 * rail.bending_stiffness * flexibility * spec.track.spacing)).powf(0.25);
         let moving = 1.5 * rail.mass / b;
         let n = f64::from(spec.contact.wheels_per_axle);
-        let of_car = |car: &Car| {
+        let of_axle = |[load, mass]: [f64; 2]| {
             let g = spec.contact.constant();
-            let contact = 1.5 * (n * n * car.axle_load()).cbrt() / g;
-            (contact * (1.0 / car.wheelset_mass + 1.0 / moving)).sqrt() / TAU
+            let contact = 1.5 * (n * n * load).cbrt() / g;
+            // A force alone has no contact.
+            if mass > 0.0 { (contact * (1.0 / mass + 1.0 / moving)).sqrt() / TAU } else { 0.0 }
         };
         Self {
             irregularity: speed / shortest,
             supports: speed / spec.track.spacing,
-            wheel_rail: spec.cars.iter().map(of_car).fold(0.0, f64::max),
+            wheel_rail: spec.consist().iter().flat_map(Vehicle::axles).map(of_axle).fold(0.0, f64::max),
         }
     }
 

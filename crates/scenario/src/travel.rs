@@ -1,6 +1,6 @@
 //! Where the wheels are: their places in the train, the distance the train has run, the abscissae they ever reach.
 
-use crate::spec::TrainTrackSpec;
+use crate::spec::{TrainTrackSpec, Vehicle};
 use crate::types::Car;
 
 /// Distance of every wheelset behind the leading one, m, in order from the front; four per car.
@@ -15,6 +15,27 @@ pub fn wheel_offsets(cars: &[Car]) -> Vec<f64> {
         let (bogie, axle) = (0.5 * car.bogie_distance, 0.5 * car.wheelbase);
         offsets.extend([-bogie - axle, -bogie + axle, bogie - axle, bogie + axle].map(|arm| centre + arm));
         front += car.length;
+    }
+    let leading = offsets.first().copied().unwrap_or(0.0);
+    offsets.iter().map(|offset| offset - leading).collect()
+}
+
+/// As [`wheel_offsets`], of vehicles with any wheels.
+#[must_use]
+pub fn vehicle_offsets(vehicles: &[Vehicle]) -> Vec<f64> {
+    let mut offsets = Vec::new();
+    let mut front = 0.0; // of the vehicle, behind the front of the train
+    for vehicle in vehicles {
+        match vehicle {
+            // Sums in the order of `wheel_offsets`, whose bits these are.
+            Vehicle::Car(car) => {
+                let centre = front + 0.5 * car.length;
+                let (bogie, axle) = (0.5 * car.bogie_distance, 0.5 * car.wheelbase);
+                offsets.extend([-bogie - axle, -bogie + axle, bogie - axle, bogie + axle].map(|arm| centre + arm));
+            }
+            Vehicle::Bodies(vehicle) => offsets.extend(vehicle.wheels.iter().map(|wheel| front + wheel.x)),
+        }
+        front += vehicle.length();
     }
     let leading = offsets.first().copied().unwrap_or(0.0);
     offsets.iter().map(|offset| offset - leading).collect()
@@ -80,10 +101,16 @@ pub fn time_of(points: &[[f64; 2]], way: f64) -> Option<f64> {
 }
 
 impl TrainTrackSpec {
+    /// Distance of every wheelset behind the leading one, m, in order from the front.
+    #[must_use]
+    pub fn offsets(&self) -> Vec<f64> {
+        vehicle_offsets(&self.consist())
+    }
+
     /// The abscissae between which wheels are during the pre-roll and the run, m.
     #[must_use]
     pub fn passage(&self) -> [f64; 2] {
-        let last = wheel_offsets(&self.cars).last().copied().unwrap_or(0.0);
+        let last = self.offsets().last().copied().unwrap_or(0.0);
         [self.front_wheel - last - self.pre_roll, self.front_wheel + distance(&self.speed, self.end)]
     }
 }

@@ -7,12 +7,11 @@ use ttb_dynamics::newmark::Newmark;
 use ttb_dynamics::pool::Pool;
 use ttb_scenario::limits::{MOST_SUBSTEPS, pre_roll_steps};
 use ttb_scenario::spec::TrainTrackSpec;
-use ttb_scenario::travel::{fade_in, wheel_offsets};
+use ttb_scenario::travel::fade_in;
 
-use crate::car::{AXLES, Car};
 use crate::contact::Contacts;
 use crate::coupled::{StepMatrices, TrainTrackSystem};
-use crate::law::Law;
+use crate::fleet::{Fleet, Reading};
 use crate::outputs::View;
 use crate::parameters::{Parameter, Parameters};
 use crate::pre_roll::pre_roll;
@@ -37,6 +36,8 @@ pub struct Built {
     start: f64,
     pre_roll: f64,
     input_meaning: f64,
+    /// Outputs of all vehicles.
+    readings: Vec<Reading>,
     state: Arc<State>,
     pool: Pool<State>,
     /// [d…, ḋ…] at the end of a sub-step.
@@ -64,11 +65,11 @@ impl Built {
         let running = Running::new(&spec.speed, if first > 0.0 { speed / first } else { 1.0 });
         let newmark = Newmark::new(get(Parameter::Gamma), get(Parameter::Beta), get(Parameter::StepSize));
         // The cars are pre-rolled over their own length more, so that the last one has run as far as asked.
-        let length: f64 = spec.cars.iter().map(|c| c.length).sum();
+        let length = spec.length();
         let pre_roll = if get(Parameter::PreRoll) > 0.0 { get(Parameter::PreRoll) + length } else { 0.0 };
         pre_roll_steps(pre_roll, running.speed(0.0), newmark.h).map_err(|e| format!("parameter pre_roll: {e}"))?;
         let (track, front) = (&prepared.track, get(Parameter::FrontWheel));
-        let offsets = wheel_offsets(&spec.cars);
+        let offsets = spec.offsets();
         for (axle, offset) in offsets.iter().enumerate() {
             on_rail(track, axle, front - offset, 0.0)?;
         }
@@ -79,16 +80,17 @@ impl Built {
         let points: Option<Vec<_>> = spec.rail_points.iter().map(|point| track.locate(point.x)).collect();
         let supports = track.bridge_supports();
         let means = StepMeans::new(supports, points.ok_or("a monitored point lies beyond the rail")?);
-        let state = Arc::new(State::rest(track.order(), spec.cars.len(), supports));
-        let cars: Vec<Car> = spec.cars.iter().map(Car::new).collect();
-        let laws = cars.iter().flat_map(|c| [Law::new(&spec.contact, c.axle_load); AXLES]).collect();
+        let fleet = Fleet::new(&spec.consist())?;
+        let state = Arc::new(State::rest(track.order(), fleet.order(), fleet.axles(), supports));
+        let laws = fleet.laws(&spec.contact);
         let wheels = Wheels::new(offsets, front, running, irregularity);
-        let system = TrainTrackSystem::new(prepared, cars, Contacts::new(laws), wheels);
+        let system = TrainTrackSystem::new(prepared, fleet, Contacts::new(laws), wheels);
         Ok(Self {
             steps: vec![system.matrices(newmark)?],
-            system,
             start,
             pre_roll,
+            readings: system.fleet.readings().concat(),
+            system,
             input_meaning: get(Parameter::InputMeaning),
             state,
             pool: Pool::default(),
@@ -119,7 +121,14 @@ impl Built {
 
     /// Fills in all outputs at time `t`, s.
     pub fn outputs(&self, t: f64, out: &mut [f64]) {
-        View { system: &self.system, state: &self.state, means: &self.means, t: t - self.start }.write(out);
+        View {
+            system: &self.system,
+            readings: &self.readings,
+            state: &self.state,
+            means: &self.means,
+            t: t - self.start,
+        }
+        .write(out);
     }
 
     /// Static equilibrium for the deck motion [d…, ḋ…] (velocities ignored).

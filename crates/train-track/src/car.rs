@@ -6,8 +6,10 @@
 //! K = Σ k v vᵀ,   secondary v = e(z_c) ± L_c e(θ_c) − e(z_b),   primary v = e(z_b) ± L_t e(θ_b) − e(z_w);   C alike
 //! ```
 
+use std::borrow::Borrow;
+
 use nalgebra::SMatrix;
-use ttb_dynamics::newmark::{Motion, Newmark};
+use ttb_dynamics::newmark::Newmark;
 use ttb_scenario::GRAVITY;
 use ttb_scenario::types::Car as CarData;
 
@@ -77,10 +79,9 @@ impl Car {
         effective.cholesky().map(|c| c.inverse())
     }
 
-    /// p of a step of car `c`, from the motion of all cars at its begin; weight included, N.
-    pub fn history(&self, newmark: &Newmark, old: &Motion, c: usize) -> Vector10 {
-        let of = |values: &[f64]| Vector10::from_column_slice(&values[c * DOFS..(c + 1) * DOFS]);
-        let (u, v, a) = (of(&old.u), of(&old.v), of(&old.a));
+    /// p of a step from u, u̇ and ü of the car at its begin; weight included, N.
+    pub fn history(&self, newmark: &Newmark, u: &[f64], v: &[f64], a: &[f64]) -> Vector10 {
+        let [u, v, a] = [u, v, a].map(Vector10::from_column_slice);
         let inertia = u.zip_zip_map(&v, &a, |u, v, a| newmark.inertia(u, v, a));
         let damping = u.zip_zip_map(&v, &a, |u, v, a| newmark.damping(u, v, a));
         self.weight() + self.mass.component_mul(&inertia) + self.damping * damping
@@ -105,11 +106,11 @@ pub fn wheel(axle: usize) -> usize {
 }
 
 /// q = q_free − K̂⁻¹ Bᵀ F of all cars, from their K̂⁻¹; B picks the wheels.
-pub fn press(inverses: &[Matrix10], free: &[f64], forces: &[f64], q: &mut [f64]) {
+pub fn press<M: Borrow<Matrix10>>(inverses: &[M], free: &[f64], forces: &[f64], q: &mut [f64]) {
     for (c, inverse) in inverses.iter().enumerate() {
         let mut pressed = Vector10::zeros();
         pressed.as_mut_slice()[FIRST_WHEEL..].copy_from_slice(&forces[c * AXLES..(c + 1) * AXLES]);
-        let moved = inverse * pressed;
+        let moved = inverse.borrow() * pressed;
         for i in 0..DOFS {
             q[c * DOFS + i] = free[c * DOFS + i] - moved[i];
         }

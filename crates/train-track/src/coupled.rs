@@ -21,8 +21,8 @@ use std::sync::Arc;
 use ttb_contract::finite::not_finite;
 use ttb_dynamics::newmark::{Motion, Newmark};
 
-use crate::car::{AXLES, Car, DOFS, Matrix10, add_wheel_compliance, press, wheel};
 use crate::contact::Contacts;
+use crate::fleet::{Fleet, Inverse};
 use crate::prepared::{Prepared, TrackFactors};
 use crate::state::State;
 use crate::track::Track;
@@ -34,16 +34,16 @@ pub struct StepMatrices {
     /// Newmark's constants.
     pub newmark: Newmark,
     track: Arc<TrackFactors>,
-    /// K̂_c⁻¹ of every car.
-    pub(crate) cars: Vec<Matrix10>,
+    /// K̂⁻¹ of every vehicle.
+    pub(crate) cars: Vec<Inverse>,
 }
 
 /// The subsystem: matrices, laws, profile, and the workspace of a step.
 pub struct TrainTrackSystem {
     /// The track and its factors, shared with other runs over it.
     pub prepared: Arc<Prepared>,
-    /// Cars from the front.
-    pub cars: Vec<Car>,
+    /// Vehicles from the front.
+    pub fleet: Fleet,
     /// Contacts of all axles.
     pub contacts: Contacts,
     /// Where all axles stand at t₁.
@@ -69,13 +69,13 @@ pub struct TrainTrackSystem {
 
 impl TrainTrackSystem {
     /// Joins the parts and makes the workspace.
-    pub fn new(prepared: Arc<Prepared>, cars: Vec<Car>, contacts: Contacts, wheels: Wheels) -> Self {
+    pub fn new(prepared: Arc<Prepared>, fleet: Fleet, contacts: Contacts, wheels: Wheels) -> Self {
         let (n, supports) = (prepared.track.order(), prepared.track.bridge_supports());
-        let axles = cars.len() * AXLES;
+        let axles = fleet.axles();
         Self {
-            cars_free: vec![0.0; cars.len() * DOFS],
+            cars_free: vec![0.0; fleet.order()],
             prepared,
-            cars,
+            fleet,
             contacts,
             wheels,
             compliance: vec![0.0; axles * axles],
@@ -104,7 +104,7 @@ impl TrainTrackSystem {
     /// A matrix that is not positive definite, as a message.
     pub fn matrices(&self, newmark: Newmark) -> Result<StepMatrices, String> {
         let track = self.prepared.factors(&newmark)?;
-        let cars: Option<Vec<_>> = self.cars.iter().map(|c| c.effective_inverse(&newmark)).collect();
+        let cars = self.fleet.effective_inverses(&newmark);
         let cars = cars.ok_or("a car's Newmark matrix is not positive definite: check its masses and stiffnesses")?;
         Ok(StepMatrices { newmark, track, cars })
     }
@@ -128,10 +128,10 @@ impl TrainTrackSystem {
         let points = &self.wheels.points;
         let n = points.len();
         for i in 0..n {
-            // Axles stand in order: before the first that is out of reach so are all, but a car couples its own.
+            // Axles stand in order: before the first that is out of reach so are all, but a vehicle couples its own.
             let table = &matrices.track.compliance;
             let near = (0..i).rev().take_while(|j| table.reaches(&points[i], &points[*j])).count();
-            let from = (i - near).min(i - i % AXLES);
+            let from = (i - near).min(self.fleet.first_axle(i));
             for j in self.coupled_from[i]..from {
                 self.compliance[i * n + j] = 0.0;
                 self.compliance[j * n + i] = 0.0;
@@ -147,29 +147,27 @@ impl TrainTrackSystem {
             let row = &mut self.to_supports[i * supports..(i + 1) * supports];
             self.reached[i] = matrices.track.compliance.to_supports(&points[i], row);
         }
-        add_wheel_compliance(&matrices.cars, &mut self.compliance);
+        self.fleet.add_wheel_compliance(&matrices.cars, &mut self.compliance);
         self.geometry_for = Some(key);
         Ok(())
     }
 
     /// q_free of all cars from their old motion.
     pub(crate) fn free_cars(&mut self, matrices: &StepMatrices, old: &Motion) {
-        for (c, (car, inverse)) in self.cars.iter().zip(&matrices.cars).enumerate() {
-            let p = car.history(&matrices.newmark, old, c);
-            self.cars_free[c * DOFS..(c + 1) * DOFS].copy_from_slice((inverse * p).as_slice());
-        }
+        self.fleet.free(&matrices.cars, &matrices.newmark, old, &mut self.cars_free);
     }
 
     /// δ_free: wheel displacements of q_free, minus r, minus the rail's deflection under the wheels.
     pub(crate) fn free_approach(&mut self, under_wheels: &[f64]) {
         for (axle, (free, rail)) in self.delta_free.iter_mut().zip(under_wheels).enumerate() {
-            *free = self.cars_free[wheel(axle)] - self.wheels.roughness[axle] - rail;
+            let wheel = self.fleet.wheel(axle).map_or(0.0, |wheel| self.cars_free[wheel]);
+            *free = wheel - self.wheels.roughness[axle] - rail;
         }
     }
 
     /// q₁ = q_free − K̂_c⁻¹ Bᵀ F with its velocities and accelerations.
     pub(crate) fn finish_cars(&self, matrices: &StepMatrices, old: &Motion, forces: &[f64], new: &mut Motion) {
-        press(&matrices.cars, &self.cars_free, forces, &mut new.u);
+        self.fleet.press(&matrices.cars, &self.cars_free, forces, &mut new.u);
         matrices.newmark.finish_all(old, new);
     }
 

@@ -11,6 +11,8 @@ use ttb_scenario::types::{Contact, ContactLaw};
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Law {
     linear: bool,
+    /// A force alone, N: whatever the approach.
+    dead: Option<f64>,
     /// n, contacts per axle.
     contacts: f64,
     /// G, m/N^{2/3}.
@@ -30,11 +32,28 @@ impl Law {
         let contacts = f64::from(contact.wheels_per_axle);
         let root = (load / contacts).cbrt();
         let (static_approach, static_stiffness) = (g * root * root, contacts * 1.5 * root / g);
-        Self { linear: contact.law == ContactLaw::Linear, contacts, g, load, static_approach, static_stiffness }
+        Self {
+            linear: contact.law == ContactLaw::Linear,
+            dead: None,
+            contacts,
+            g,
+            load,
+            static_approach,
+            static_stiffness,
+        }
+    }
+
+    /// Of a force alone, which presses with `load`, N, whatever the approach.
+    pub fn dead(contact: &Contact, load: f64) -> Self {
+        Self { dead: Some(load), static_approach: 0.0, ..Self::new(contact, load) }
     }
 
     /// F(δ) and F′(δ), N and N/m; neither is a number where δ is none.
     pub fn force(&self, delta: f64) -> (f64, f64) {
+        if let Some(load) = self.dead {
+            // A NaN goes through here, too.
+            return (load + 0.0 * delta, 0.0);
+        }
         if self.linear {
             let force = self.load + self.static_stiffness * (delta - self.static_approach);
             // A NaN is no separation: it goes through.

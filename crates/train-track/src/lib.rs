@@ -11,6 +11,7 @@ pub mod compliance;
 pub mod contact;
 pub mod coupled;
 mod decaying;
+pub mod fleet;
 mod interface;
 pub mod law;
 mod model;

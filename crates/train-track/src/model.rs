@@ -9,6 +9,7 @@ use ttb_scenario::limits::{MOST_BAYS, MOST_ELEMENTS_PER_BAY};
 use ttb_scenario::spec::TrainTrackSpec;
 
 use crate::built::Built;
+use crate::fleet::Fleet;
 use crate::interface::interface;
 use crate::parameters::{Parameter, Parameters};
 use crate::prepared::Prepared;
@@ -37,7 +38,7 @@ impl TrainTrack {
     /// # Errors
     /// Never for a checked specification; a message otherwise.
     pub fn new(spec: TrainTrackSpec) -> Result<Self, ModelError> {
-        if spec.cars.is_empty() || spec.speed.is_empty() || spec.on_bridge.is_empty() {
+        if spec.axle_count() == 0 || spec.speed.is_empty() || spec.on_bridge.is_empty() {
             return Err(error("the train–track data lack cars, speed or supports on the bridge"));
         }
         let bays = (1..=MOST_BAYS).contains(&spec.bays);
@@ -48,6 +49,7 @@ impl TrainTrack {
         if spec.on_bridge.iter().any(|support| *support > spec.bays) {
             return Err(error("a support on the bridge lies beyond the track"));
         }
+        Fleet::new(&spec.consist()).map_err(error)?;
         Ok(Self { interface: interface(&spec), spec, shared: None, built: None })
     }
 
@@ -156,7 +158,7 @@ impl Model for TrainTrack {
     }
 
     fn save(&self) -> Self::State {
-        self.built.as_ref().map_or_else(|| Arc::new(State::rest(0, 0, 0)), |built| Arc::clone(built.state()))
+        self.built.as_ref().map_or_else(|| Arc::new(State::rest(0, 0, 0, 0)), |built| Arc::clone(built.state()))
     }
 
     fn restore(&mut self, state: &Self::State) {

@@ -4,8 +4,8 @@ use ttb_contract::names::{WORK, support};
 use ttb_contract::{Component, Variable};
 use ttb_scenario::spec::TrainTrackSpec;
 
-use crate::car::{AXLES, DOFS, wheel};
 use crate::coupled::TrainTrackSystem;
+use crate::fleet::{Fleet, Reading};
 use crate::state::State;
 use crate::step_means::StepMeans;
 
@@ -13,6 +13,8 @@ use crate::step_means::StepMeans;
 pub struct View<'a> {
     /// Matrices and the places of the wheels.
     pub system: &'a TrainTrackSystem,
+    /// Outputs of all vehicles.
+    pub readings: &'a [Reading],
     /// State at the end of the step.
     pub state: &'a State,
     /// What is known of the whole step.
@@ -36,7 +38,6 @@ type OfOne = fn(&View, usize) -> f64;
 #[derive(Clone, Copy)]
 enum Body {
     Wheel,
-    Car,
     RailPoint,
     /// The subsystem as a whole: its outputs have no index.
     Whole,
@@ -46,6 +47,8 @@ enum Body {
 enum Group {
     /// One output of all supports on the bridge; `feed_through`: it follows the deck's motion at the same instant.
     Supports { output: Output<for<'a> fn(&'a View<'a>) -> &'a [f64]>, feed_through: bool },
+    /// Outputs of the vehicles, as their bodies give them.
+    Vehicles,
     /// All outputs of one body, then those of the next.
     Each(Body, &'static [Output<OfOne>]),
 }
@@ -92,53 +95,20 @@ const OUTPUTS: [Group; 6] = [
                 name: "displacement",
                 unit: "m",
                 text: "Displacement of the wheelset, down",
-                read: |view, axle| view.state.cars.u[wheel(axle)],
+                read: |view, axle| view.wheel(axle),
             },
             Output {
                 name: "rail_displacement",
                 unit: "m",
                 text: "Displacement of the rail under the wheel, down",
                 read: |view, axle| {
-                    view.state.cars.u[wheel(axle)] - view.state.delta[axle] - view.system.wheels.roughness[axle]
+                    let wheel = view.system.fleet.wheel(axle).map_or(0.0, |wheel| view.state.cars.u[wheel]);
+                    wheel - view.state.delta[axle] - view.system.wheels.roughness[axle]
                 },
             },
         ],
     ),
-    Group::Each(
-        Body::Car,
-        &[
-            Output {
-                name: "displacement",
-                unit: "m",
-                text: "Displacement of the car body's centre, down",
-                read: |view, car| view.state.cars.u[car * DOFS],
-            },
-            Output {
-                name: "acceleration",
-                unit: "m/s2",
-                text: "Acceleration of the car body's centre, down",
-                read: |view, car| view.state.cars.a[car * DOFS],
-            },
-            Output {
-                name: "pitch_acceleration",
-                unit: "rad/s2",
-                text: "Pitch acceleration of the car body, front down",
-                read: |view, car| view.state.cars.a[car * DOFS + 1],
-            },
-            Output {
-                name: "front_bogie_acceleration",
-                unit: "m/s2",
-                text: "Acceleration of the leading bogie, down",
-                read: |view, car| view.state.cars.a[car * DOFS + 2],
-            },
-            Output {
-                name: "rear_bogie_acceleration",
-                unit: "m/s2",
-                text: "Acceleration of the trailing bogie, down",
-                read: |view, car| view.state.cars.a[car * DOFS + 4],
-            },
-        ],
-    ),
+    Group::Vehicles,
     Group::Each(
         Body::RailPoint,
         &[
@@ -180,6 +150,11 @@ const OUTPUTS: [Group; 6] = [
 ];
 
 impl View<'_> {
+    /// Displacement of a wheelset; that of a force alone is the rail's with its irregularity.
+    fn wheel(&self, axle: usize) -> f64 {
+        self.system.fleet.wheel(axle).map_or(-self.state.delta[axle], |wheel| self.state.cars.u[wheel])
+    }
+
     /// Deflection of a monitored point of the rail, from u, u̇ or ü of the track.
     fn rail(&self, point: usize, of: &[f64]) -> f64 {
         self.system.track().deflection(&self.means.points[point], of)
@@ -189,7 +164,6 @@ impl View<'_> {
     fn count(&self, body: Body) -> usize {
         match body {
             Body::Wheel => self.state.forces.len(),
-            Body::Car => self.state.forces.len() / AXLES,
             Body::RailPoint => self.means.points.len(),
             Body::Whole => 1,
         }
@@ -202,6 +176,12 @@ impl View<'_> {
                 Group::Supports { output, .. } => {
                     let values = (output.read)(self);
                     out.split_off_mut(..values.len()).into_iter().for_each(|part| part.copy_from_slice(values));
+                }
+                Group::Vehicles => {
+                    let part = out.split_off_mut(..self.readings.len()).into_iter().flatten();
+                    for (out, Reading { dof, acceleration, .. }) in part.zip(self.readings) {
+                        *out = if *acceleration { self.state.cars.a[*dof] } else { self.state.cars.u[*dof] };
+                    }
                 }
                 Group::Each(body, outputs) => {
                     let n = self.count(*body);
@@ -227,6 +207,14 @@ pub fn variables(spec: &TrainTrackSpec) -> Vec<Variable> {
                     Variable { feed_through: *feed_through, ..variable }
                 }));
             }
+            Group::Vehicles => {
+                // One that cannot be built has been refused before.
+                let vehicles = Fleet::new(&spec.consist()).map(|fleet| fleet.readings()).unwrap_or_default();
+                for (car, readings) in (1..).zip(vehicles) {
+                    let of = |r: &Reading| Variable::output(format!("car[{car}].{}", r.name), r.unit, &r.text);
+                    variables.extend(readings.iter().map(of));
+                }
+            }
             Group::Each(body, outputs) => {
                 for holder in holders(*body, spec) {
                     let of = |output: &Output<_>| {
@@ -244,8 +232,7 @@ pub fn variables(spec: &TrainTrackSpec) -> Vec<Variable> {
 fn holders(body: Body, spec: &TrainTrackSpec) -> Vec<String> {
     let numbered = |what: &str, count: usize| (1..=count).map(|i| format!("{what}[{i}].")).collect();
     match body {
-        Body::Wheel => numbered("wheel", spec.cars.len() * AXLES),
-        Body::Car => numbered("car", spec.cars.len()),
+        Body::Wheel => numbered("wheel", spec.axle_count()),
         Body::RailPoint => spec.rail_points.iter().map(|point| format!("rail[{}].", point.name)).collect(),
         Body::Whole => vec![String::new()],
     }

@@ -10,7 +10,6 @@
 
 use ttb_scenario::limits::pre_roll_steps;
 
-use crate::car::add_wheel_compliance;
 use crate::coupled::{StepMatrices, TrainTrackSystem};
 use crate::state::State;
 use crate::statics::{rail_under_wheels, rail_without_wheels, static_compliance};
@@ -30,7 +29,7 @@ pub fn pre_roll(
     system.locate(0.0)?;
     let rail = rail_without_wheels(system, &state.deck);
     static_compliance(system);
-    add_wheel_compliance(&matrices.cars, &mut system.compliance);
+    system.fleet.add_wheel_compliance(&matrices.cars, &mut system.compliance);
     let points = system.wheels.points.iter();
     let under_wheels: Vec<f64> = points.map(|point| system.track().deflection(point, &rail)).collect();
     let (mut old, mut new) = (state.cars.clone(), state.cars.clone());

@@ -2,14 +2,12 @@
 
 use ttb_dynamics::newmark::Motion;
 
-use crate::car::{AXLES, DOFS};
-
 /// Dynamic state of the subsystem.
 #[derive(Clone, Debug, PartialEq)]
 pub struct State {
     /// The track's degrees of freedom.
     pub track: Motion,
-    /// The cars', 10 each.
+    /// The vehicles'.
     pub cars: Motion,
     /// Approach of every axle, m.
     pub delta: Vec<f64>,
@@ -22,12 +20,12 @@ pub struct State {
 }
 
 impl State {
-    /// Undeformed and at rest, with so many degrees of freedom of the track, cars, and supports on the bridge.
-    pub fn rest(track_dofs: usize, cars: usize, supports: usize) -> Self {
-        let axles = vec![0.0; cars * AXLES];
+    /// Undeformed and at rest, with so many degrees of freedom of track and vehicles, axles, and supports on the bridge.
+    pub fn rest(track_dofs: usize, car_dofs: usize, axles: usize, supports: usize) -> Self {
+        let axles = vec![0.0; axles];
         Self {
             track: Motion::rest(track_dofs),
-            cars: Motion::rest(cars * DOFS),
+            cars: Motion::rest(car_dofs),
             delta: axles.clone(),
             forces: axles,
             deck: vec![0.0; 2 * supports],

@@ -16,7 +16,6 @@ use std::ops::Range;
 use ttb_contract::finite::larger;
 use ttb_dynamics::newmark::Motion;
 
-use crate::car::{DOFS, Vector10, wheel};
 use crate::coupled::TrainTrackSystem;
 use crate::decaying::{Decaying, NEGLIGIBLE};
 use crate::law::Law;
@@ -43,8 +42,8 @@ pub fn equilibrium(system: &mut TrainTrackSystem, t: f64, deck: &[f64], state: &
     if let Some(axle) = offset.iter().position(|under| !under.is_finite()) {
         return Err(format!("the rail under wheel {} is at {} m at t = {t} s", axle + 1, offset[axle]));
     }
-    let weight: Vec<f64> = system.cars.iter().flat_map(|c| c.weight().iter().copied().collect::<Vec<_>>()).collect();
-    let load = system.cars.iter().map(|c| c.axle_load).fold(0.0, larger);
+    let (weight, load) = (system.fleet.weight(), system.fleet.greatest_load());
+    let wheels: Vec<Option<usize>> = (0..axles).map(|axle| system.fleet.wheel(axle)).collect();
 
     // First point of expansion: every axle under its static load.
     let mut delta: Vec<f64> = system.contacts.laws().iter().map(Law::static_approach).collect();
@@ -57,11 +56,19 @@ pub fn equilibrium(system: &mut TrainTrackSystem, t: f64, deck: &[f64], state: &
         // r = w − K q − Bᵀ F, and the tangent; the first time q is unknown and K q is left to the solution.
         let tangent = ContactTangent::new(system, &delta);
         let mut residual = weight.clone();
-        (0..axles).for_each(|i| residual[wheel(i)] -= forces[i]);
+        wheels
+            .iter()
+            .zip(&forces)
+            .filter_map(|(wheel, force)| Some(((*wheel)?, force)))
+            .for_each(|(i, f)| residual[i] -= f);
         match &q {
-            None => tangent.each(|i, j, t| residual[wheel(i)] += t * (s[j] + offset[j])),
+            None => tangent.each(|i, j, t| {
+                if let (Some(row), Some(_)) = (wheels[i], wheels[j]) {
+                    residual[row] += t * (s[j] + offset[j]);
+                }
+            }),
             Some(q) => {
-                subtract_stiffness(system, q, &mut residual);
+                system.fleet.subtract_stiffness(q, &mut residual);
                 let unbalanced = residual.iter().fold(0.0, |most, force| larger(most, force.abs()));
                 if unbalanced <= BALANCE * load {
                     write(system, rail, deck, q, &delta, &forces, state);
@@ -76,7 +83,7 @@ pub fn equilibrium(system: &mut TrainTrackSystem, t: f64, deck: &[f64], state: &
             None => residual,
             Some(q) => q.iter().zip(&residual).map(|(q, change)| q + change).collect(),
         };
-        s = (0..axles).map(|i| next[wheel(i)] - offset[i]).collect();
+        s = (0..axles).map(|i| wheels[i].map_or(0.0, |wheel| next[wheel]) - offset[i]).collect();
         let compliance = std::mem::take(&mut system.compliance);
         let contact = system.contacts.solve(&compliance, &s, &mut delta, &mut forces);
         system.compliance = compliance;
@@ -86,28 +93,17 @@ pub fn equilibrium(system: &mut TrainTrackSystem, t: f64, deck: &[f64], state: &
     Err(format!("static equilibrium of the train was not found in {ITERATIONS} iterations"))
 }
 
-/// r ← r − K_c q, car by car.
-fn subtract_stiffness(system: &TrainTrackSystem, q: &[f64], residual: &mut [f64]) {
-    for (c, car) in system.cars.iter().enumerate() {
-        let own = c * DOFS..(c + 1) * DOFS;
-        let force = car.stiffness * Vector10::from_column_slice(&q[own.clone()]);
-        residual[own].iter_mut().zip(&force).for_each(|(r, f)| *r -= f);
-    }
-}
-
 /// K_c + Bᵀ T B.
 fn matrix(system: &TrainTrackSystem, tangent: &ContactTangent) -> Decaying {
-    let mut reach = DOFS - 1;
-    tangent.each(|i, j, _| reach = reach.max(wheel(i.max(j)) - wheel(i.min(j))));
-    let mut matrix = Decaying::zeros(system.cars.len() * DOFS, reach);
-    for (c, car) in system.cars.iter().enumerate() {
-        for j in 0..DOFS {
-            (j..DOFS).for_each(|i| matrix.add(c * DOFS + i, c * DOFS + j, car.stiffness[(i, j)]));
-        }
-    }
+    let fleet = &system.fleet;
+    let both = |i: usize, j: usize| fleet.wheel(i).zip(fleet.wheel(j));
+    let mut reach = fleet.largest_order().saturating_sub(1);
+    tangent.each(|i, j, _| reach = both(i, j).map_or(reach, |(a, b)| reach.max(a.abs_diff(b))));
+    let mut matrix = Decaying::zeros(fleet.order(), reach);
+    fleet.each_stiffness(|i, j, k| matrix.add(i, j, k));
     tangent.each(|i, j, t| {
-        if i >= j {
-            matrix.add(wheel(i), wheel(j), t);
+        if let Some((row, column)) = both(i, j).filter(|(row, column)| row >= column) {
+            matrix.add(row, column, t);
         }
     });
     matrix

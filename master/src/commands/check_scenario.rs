@@ -13,7 +13,7 @@ pub fn check(scenario: &Path, set: &Set) -> Result<(), Error> {
     let remarks = ttb_bridge::inspect::remarks(&checked.bridge).map_err(|e| Error::Input(e.to_string()))?;
     remarks.iter().for_each(|remark| note!("ttb: warning: {remark}"));
     let supports = checked.bridge.supports.len();
-    let cars = checked.train_track.cars.len();
+    let cars = checked.train_track.consist().len();
     let cars = if cars == 1 { "1 car".to_string() } else { format!("{cars} cars") };
     say!("{}: no problems; {cars}, {supports} supports on the bridge", scenario.display());
     Ok(())

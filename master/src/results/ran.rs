@@ -40,7 +40,7 @@ impl Watched {
     /// By the name of a point, if any, and numbers from 1.
     pub fn new(checked: &Checked, point: Option<&str>, car: usize, wheel: usize) -> Result<Self, Error> {
         let points = &checked.bridge.points;
-        let cars = checked.train_track.cars.len();
+        let (cars, wheels) = (checked.train_track.consist().len(), checked.train_track.axle_count());
         let at = match point {
             None => Some(0).filter(|_| !points.is_empty()),
             Some(name) => points.iter().position(|p| p.name == name),
@@ -59,7 +59,7 @@ impl Watched {
         Ok(Self {
             point: points[at].name.clone(),
             car: within("car", car, cars)?,
-            wheel: within("wheel", wheel, 4 * cars)?,
+            wheel: within("wheel", wheel, wheels)?,
         })
     }
 

@@ -11,8 +11,9 @@ use crate::pieces::Pieces;
 use crate::place::{BEYOND, Placement};
 use crate::problem::Report;
 use crate::resolve::Resolved;
+use crate::spec::Vehicle;
 use crate::step::LONGEST;
-use crate::travel::{distance, speed_at, time_of, wheel_offsets};
+use crate::travel::{distance, speed_at, time_of, vehicle_offsets};
 use crate::types::{Bridge, Irregularity, RailPoint};
 
 /// Relative slack for sums of lengths: a bridge may end exactly where the track ends.
@@ -64,17 +65,20 @@ fn passage(pieces: &Pieces, resolved: &Resolved, placed: &Placement) -> Option<P
     let train = pieces.train.as_ref()?;
     let (front, end) = (placed.front_wheel?, placed.end?);
     let (cars, speed) = (resolved.cars.as_ref()?, resolved.speed.as_ref()?);
-    let sane = cars.iter().all(|car| car.length > 0.0 && car.bogie_distance > 0.0 && car.wheelbase > 0.0);
+    let sane = cars.iter().all(|vehicle| match vehicle {
+        Vehicle::Car(car) => car.length > 0.0 && car.bogie_distance > 0.0 && car.wheelbase > 0.0,
+        Vehicle::Bodies(vehicle) => vehicle.length() >= 0.0,
+    });
     let moving = speed.iter().all(|[_, v]| *v >= 0.0) && speed.windows(2).all(|pair| pair[0][0] < pair[1][0]);
     if !sane || !moving || end <= 0.0 {
         return None;
     }
     Some(Passage {
-        rear: front - wheel_offsets(cars).last()?,
+        rear: front - vehicle_offsets(cars).last()?,
         front,
         end: front + distance(speed, end),
         pre_roll: placed.pre_roll.unwrap_or(0.0),
-        length: cars.iter().map(|car| car.length).sum(),
+        length: cars.iter().map(Vehicle::length).sum(),
         start_given: train.front_wheel.is_some(),
         end_given: pieces.time.as_ref()?.end.is_some(),
     })
@@ -82,7 +86,7 @@ fn passage(pieces: &Pieces, resolved: &Resolved, placed: &Placement) -> Option<P
 
 /// The cars roll over the pre-roll and their own length.
 fn pre_roll(distance: f64, speed: f64, step: f64, resolved: &Resolved, report: &mut Report) {
-    let length: f64 = resolved.cars.iter().flatten().map(|car| car.length).sum();
+    let length: f64 = resolved.cars.iter().flatten().map(Vehicle::length).sum();
     if distance > 0.0
         && speed >= 0.0
         && step > 0.0

@@ -22,6 +22,7 @@ use crate::resolve::Resolved;
 /// Reports every broken rule, and as warnings what is allowed but rarely meant.
 pub(crate) fn check(pieces: &Pieces, resolved: &Resolved, placed: &Placement, report: &mut Report) {
     run::cars(&pieces.cars, report);
+    run::train(pieces, report);
     if let Some(speed) = &pieces.speed {
         run::speed(speed, report);
     }

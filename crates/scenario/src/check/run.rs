@@ -1,18 +1,25 @@
 //! Rules inside the sections on train, track, irregularity and time.
 
 use crate::limits::{GREATEST_SPEED, STEP, pre_roll_steps, steps};
+use crate::pieces::Pieces;
 use crate::problem::Report;
 use crate::spec::TrainTrackSpec;
 use crate::travel::speed_at;
 use crate::types::{
-    CarChoice, CouplingSettings, Csv, Decimal, Irregularity, Newmark, Rail, Sending, Separator, Speed, Time,
+    CarChoice, CouplingSettings, Csv, Decimal, Forces, Irregularity, Newmark, Rail, Sending, Separator, Speed, Time,
 };
+use crate::vehicle::{Equations, Fault};
 
 /// Wheelsets stand in order inside their car.
 pub(super) fn cars(cars: &[Option<CarChoice>], report: &mut Report) {
     for (i, choice) in cars.iter().enumerate() {
-        let Some(CarChoice::Data(car)) = choice else { continue };
         let path = format!("$.train.cars[{i}]");
+        if let Some(CarChoice::Vehicle(vehicle)) = choice {
+            for Fault { path: inside, rule, found } in Equations::new(vehicle).err().into_iter().flatten() {
+                report.problem(path.clone() + &inside, rule, found);
+            }
+        }
+        let Some(CarChoice::Data(car)) = choice else { continue };
         if car.wheelbase >= car.bogie_distance {
             let rule = "the wheelbase must be shorter than bogie_distance";
             report.problem(format!("{path}.wheelbase"), rule, format!("{} ≥ {} m", car.wheelbase, car.bogie_distance));
@@ -21,6 +28,28 @@ pub(super) fn cars(cars: &[Option<CarChoice>], report: &mut Report) {
             let rule = "the car must be at least as long as from its first to its last wheel";
             let wheels = car.bogie_distance + car.wheelbase;
             report.problem(format!("{path}.length"), rule, format!("{} < {wheels} m", car.length));
+        }
+    }
+}
+
+/// Cars or forces, and forces in order.
+pub(super) fn train(pieces: &Pieces, report: &mut Report) {
+    let rule = "a train has either cars or forces";
+    match (pieces.has_cars, pieces.has_forces) {
+        (true, true) => report.problem("$.train", rule, "both"),
+        (false, false) if pieces.has_train => report.problem("$.train.cars", rule, "neither"),
+        _ => {}
+    }
+    let Some(Forces::Axles(axles)) = &pieces.forces else { return };
+    for (i, [x, load]) in axles.iter().enumerate() {
+        let path = format!("$.train.forces[{i}]");
+        let before = i.checked_sub(1).map(|before| axles[before][0]);
+        if before.is_some_and(|before| *x <= before) || (i == 0 && *x != 0.0) {
+            let rule = "axles must be listed from the first one, which is at 0, backwards";
+            report.problem(format!("{path}[0]"), rule, format!("{x} m"));
+        }
+        if *load <= 0.0 {
+            report.problem(format!("{path}[1]"), "the force of an axle must be greater than 0", format!("{load} N"));
         }
     }
 }
@@ -92,8 +121,7 @@ pub(crate) fn chosen_steps(spec: &TrainTrackSpec, report: &mut Report) {
     if let Err(exceeded) = steps(spec.end, spec.step) {
         report.problem("$.time.end", exceeded.rule, exceeded.found);
     }
-    let distance =
-        if spec.pre_roll > 0.0 { spec.pre_roll + spec.cars.iter().map(|car| car.length).sum::<f64>() } else { 0.0 };
+    let distance = if spec.pre_roll > 0.0 { spec.pre_roll + spec.length() } else { 0.0 };
     if let Err(exceeded) = pre_roll_steps(distance, speed_at(&spec.speed, 0.0), spec.step / spec.substeps as f64) {
         report.problem("$.train.pre_roll", exceeded.rule, exceeded.found);
     }

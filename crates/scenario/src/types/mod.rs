@@ -15,6 +15,7 @@ mod sections;
 mod time;
 mod track;
 mod train;
+mod vehicle;
 
 pub use bridge::*;
 pub use coupling::*;
@@ -31,3 +32,4 @@ pub use sections::*;
 pub use time::*;
 pub use track::*;
 pub use train::*;
+pub use vehicle::*;

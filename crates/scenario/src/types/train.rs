@@ -3,6 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::vehicle::Vehicle;
 use crate::data::train_names;
 
 /// One car with 10 degrees of freedom. Springs and dashpots are those of a whole bogie (secondary) or a whole
@@ -62,6 +63,18 @@ pub enum CarChoice {
     Bundled(#[schemars(extend("enum" = train_names().collect::<Vec<_>>()))] String),
     /// The car's data.
     Data(Box<Car>),
+    /// A vehicle of bodies, wheels and links.
+    Vehicle(Box<Vehicle>),
+}
+
+/// Forces in place of cars.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(untagged)]
+pub enum Forces {
+    /// Name of a train of forces, such as `hslm-a3`, or a file of one.
+    Named(String),
+    /// Axles: m behind the first one, N.
+    Axles(#[schemars(length(min = 1))] Vec<[f64; 2]>),
 }
 
 /// Train speed.
@@ -83,8 +96,12 @@ pub enum Speed {
 #[schemars(deny_unknown_fields)]
 pub struct Train {
     /// Cars, the leading one first.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(length(min = 1))]
-    pub cars: Vec<CarChoice>,
+    pub cars: Option<Vec<CarChoice>>,
+    /// Or forces alone, without masses under them.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub forces: Option<Forces>,
     /// Abscissa of the leading wheel at the start, m; absent: half a second's run before the bridge, at least 20 m.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub front_wheel: Option<f64>,

@@ -109,6 +109,12 @@ impl<'a> Walker<'a> {
         if let [only] = present.as_slice() {
             return Some(only);
         }
+        // Of branches with several keys the one that knows most of those that are there.
+        let known = |branch: &Value| map.keys().filter(|key| branch["properties"].get(key.as_str()).is_some()).count();
+        let most = branches.iter().copied().max_by_key(|branch| known(branch));
+        if let Some(meant) = most.filter(|branch| present.is_empty() && known(branch) > 1) {
+            return Some(meant);
+        }
         let keys: Vec<&str> = branches.iter().map(|branch| key(branch)).collect();
         let rule = format!("must have exactly one of the keys {}", keys.join(", "));
         let found: Vec<String> = map.keys().map(|k| format!("`{k}`")).collect();

@@ -12,6 +12,7 @@ pub fn spec() -> TrainTrackSpec {
     let ei = 2.06e11 * 2.0 * 3.217e-5;
     TrainTrackSpec {
         cars: vec![trailer()],
+        vehicles: Vec::new(),
         front_wheel: 30.0,
         speed: vec![[0.0, 250.0 / 3.6]],
         pre_roll: 0.0,
