@@ -73,7 +73,10 @@ fn run(about: &About) -> Run {
         _ if smooth => "smooth".into(),
         _ => String::new(),
     };
-    let basis = Basis { loads: Loads::Vehicles, rail: if smooth { Rail::Smooth } else { Rail::Rough } };
+    let loads = if checked.scenario.train.forces.is_some() { Loads::Forces } else { Loads::Vehicles };
+    // Nothing under forces alone feels the rail.
+    let smooth = smooth || loads == Loads::Forces;
+    let basis = Basis { loads, rail: if smooth { Rail::Smooth } else { Rail::Rough } };
     Run {
         run_id,
         train: train(checked),
@@ -98,10 +101,15 @@ fn speed(checked: &Checked) -> Option<f64> {
 
 /// The names of its cars, equal ones counted.
 fn train(checked: &Checked) -> String {
-    let names = checked.scenario.train.cars.iter().map(|car| match car {
+    let train = &checked.scenario.train;
+    if train.forces.is_some() {
+        return format!("{} forces", checked.train_track.axle_count());
+    }
+    let named = |name: &String, word: &str| if name.is_empty() { word.to_string() } else { name.clone() };
+    let names = train.cars.iter().flatten().map(|car| match car {
         CarChoice::Bundled(name) => name.clone(),
-        CarChoice::Data(car) if car.name.is_empty() => "car".into(),
-        CarChoice::Data(car) => car.name.clone(),
+        CarChoice::Data(car) => named(&car.name, "car"),
+        CarChoice::Vehicle(vehicle) => named(&vehicle.name, "vehicle"),
     });
     let mut counted: Vec<(String, usize)> = Vec::new();
     for name in names {

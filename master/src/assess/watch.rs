@@ -4,6 +4,7 @@ use std::ops::ControlFlow;
 
 use ttb_assessment::reduce::{AxleHistory, CarHistory, Histories, PointHistory};
 use ttb_scenario::Checked;
+use ttb_scenario::spec::Vehicle;
 use ttb_session::column::Column;
 use ttb_session::{Begin, Moment, Observer, Of, Quantity, RunError};
 
@@ -53,6 +54,11 @@ impl Watch {
     /// scenario the force of the first row is the static one.
     pub fn histories(self, checked: Option<&Checked>, scene: &Scene) -> Histories {
         let mut histories = Histories { time: self.time, bridge: scene.deck, ..Histories::default() };
+        let vehicles = checked.map(|checked| checked.train_track.consist()).unwrap_or_default();
+        let loads: Vec<f64> = vehicles.iter().flat_map(Vehicle::axles).map(|[load, _]| load).collect();
+        // Outputs count the vehicles that have a body.
+        let with_bodies = |vehicle: &&Vehicle| !matches!(vehicle, Vehicle::Bodies(v) if v.bodies.is_empty());
+        let cars: Vec<&Vehicle> = vehicles.iter().filter(with_bodies).collect();
         for Kept { column, values, .. } in self.kept {
             match &column.of {
                 Of::Point(name) if belongs_to_deck(name, checked) => {
@@ -73,8 +79,7 @@ impl Watch {
                     }
                 }
                 Of::Wheel(number) => {
-                    let loads = checked.into_iter().flat_map(|checked| checked.train_track.cars.iter());
-                    let known = loads.flat_map(|car| [car.axle_load(); 4]).nth(number - 1);
+                    let known = number.checked_sub(1).and_then(|at| loads.get(at)).copied();
                     let axle = of(
                         &mut histories.axles,
                         |axle| axle.number == *number,
@@ -88,13 +93,16 @@ impl Watch {
                     }
                 }
                 Of::Car(number) => {
-                    let base = checked.and_then(|checked| checked.train_track.cars.get(number - 1));
+                    let base = number.checked_sub(1).and_then(|at| match cars.get(at) {
+                        Some(Vehicle::Car(car)) => Some(0.5 * car.bogie_distance),
+                        _ => None,
+                    });
                     let car = of(
                         &mut histories.cars,
                         |car| car.number == *number,
                         || CarHistory {
                             number: *number,
-                            half_base: base.map(|car| 0.5 * car.bogie_distance),
+                            half_base: base,
                             ..CarHistory::default()
                         },
                     );
