@@ -6,7 +6,7 @@ use clap::Parser;
 use ttb::cli::{Cli, Command};
 use ttb::commands::{
     accuracy, build, check, check_scenario, compare, export_ssp, generate, help_files, host, inspect, inspect_bridge,
-    interoperability, keeper, new, report, run, schema, view,
+    interoperability, keeper, list, new, report, run, schema, signature, statics, view,
 };
 use ttb::error::Error;
 use ttb::signals::Stop;
@@ -55,6 +55,9 @@ fn execute(command: Command, stop: &Stop) -> Result<(), Error> {
         Command::ExportSsp(arguments) => export_ssp::export(&arguments),
         Command::Generate(arguments) => generate::generate(&arguments),
         Command::View(arguments) => view::view(&arguments, stop),
+        Command::List(arguments) => list::list(&arguments),
+        Command::Signature(arguments) => signature::signature(&arguments),
+        Command::Static(arguments) => statics::compute(&arguments),
         Command::Schema { bridge, summary, verdicts } => schema::schema(bridge, summary, verdicts),
         Command::Completions { shell } => help_files::completions(shell),
         Command::Man { output } => help_files::man(output.as_deref()),

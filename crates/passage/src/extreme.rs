@@ -5,6 +5,8 @@
 //! |top − b| ≤ |a − 2b + c|/8          so most samples are passed over without a division
 //! ```
 
+use pulp::Simd;
+
 /// The largest and the smallest value of a history, and when. A history begins at rest: 0 at time 0.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Extreme {
@@ -53,17 +55,29 @@ pub struct Watch {
 
 impl Watch {
     /// Takes the samples of step `n`, at time n h.
-    #[inline(always)]
     pub fn look(&mut self, sample: &[f64; WIDE], n: usize, h: f64) {
-        let mut hit = false;
-        for i in 0..WIDE {
-            let [a, b, c] = [self.before[i], self.last[i], sample[i]];
-            let most = 0.125 * (a - 2.0 * b + c).abs();
-            let up = (b >= a) & (b >= c) & (b + most > self.max[i]);
-            let down = (b <= a) & (b <= c) & (b - most < self.min[i]);
-            hit |= up | down;
+        self.look_with(pulp::Scalar::new(), sample, n, h);
+    }
+
+    /// The same in a vector's lanes; any instruction set gives the same bits.
+    #[inline(always)]
+    pub fn look_with<S: Simd>(&mut self, simd: S, sample: &[f64; WIDE], n: usize, h: f64) {
+        let [zero, two, eighth] = [0.0, 2.0, 0.125].map(|x| simd.splat_f64s(x));
+        let (before, last) = (S::as_simd_f64s(&self.before).0, S::as_simd_f64s(&self.last).0);
+        let (max, min) = (S::as_simd_f64s(&self.max).0, S::as_simd_f64s(&self.min).0);
+        // Positive where a sample may be a new extreme.
+        let mut excess = zero;
+        for (i, c) in S::as_simd_f64s(sample).0.iter().enumerate() {
+            let (a, b, c) = (before[i], last[i], *c);
+            let bend = simd.add_f64s(simd.sub_f64s(a, simd.mul_f64s(two, b)), c);
+            let most = simd.mul_f64s(eighth, simd.abs_f64s(bend));
+            let up = simd.sub_f64s(simd.add_f64s(b, most), max[i]);
+            let down = simd.add_f64s(simd.sub_f64s(min[i], b), most);
+            let turns = simd.mul_f64s(simd.sub_f64s(b, a), simd.sub_f64s(c, b));
+            let turned = simd.less_than_or_equal_f64s(turns, zero);
+            excess = simd.max_f64s(excess, simd.select_f64s(turned, simd.max_f64s(up, down), zero));
         }
-        if hit {
+        if simd.reduce_max_f64s(excess) > 0.0 {
             self.improve(sample, n, h);
         }
         self.before = self.last;

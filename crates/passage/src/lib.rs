@@ -18,6 +18,10 @@
 //! **Filters.** [`Passage::histories`] gives the few modal accelerations; [`Histories::filtered`] applies a linear filter to
 //! them, and [`Histories::accelerations`] combines them at all deck points.
 //!
+//! **Bridges without such modes** (dashpots, damping matrices, FMUs of other programs): [`one_axle`] runs one axle a speed
+//! over a [`ttb_contract::Subsystem`], and every train follows by superposition; [`own::OwnBridge`] is the project's bridge
+//! in all degrees of freedom. [`one_axle::Unit::response`] gives the same [`Response`] over [`one_axle::Unit::outputs`].
+//!
 //! A response depends on bridge, train, heading, free vibration and its own speed alone: not on other speeds, threads or
 //! vector instructions.
 
@@ -27,6 +31,8 @@ pub mod lines;
 pub mod load;
 pub mod march;
 pub mod modal;
+pub mod one_axle;
+pub mod own;
 pub mod passage;
 pub mod place;
 mod plane;

@@ -108,7 +108,7 @@ impl Lines {
 
     /// Rows of `out` ← rows + factor · y(x), one row of all functions for each of the rising `places` on the deck.
     pub fn add(&self, places: &[f64], factor: f64, out: &mut [f64]) {
-        pulp::Arch::new().dispatch(|| self.add_each(places, factor, out));
+        pulp::Arch::new().dispatch(Add { lines: self, places, factor, out });
     }
 
     #[inline(always)]
@@ -134,6 +134,23 @@ impl Lines {
                 *y += (factor * c0 + w1 * c1) + (w2 * c2 + w3 * c3);
             }
         }
+    }
+}
+
+/// [`Lines::add`] under an instruction set.
+struct Add<'a> {
+    lines: &'a Lines,
+    places: &'a [f64],
+    factor: f64,
+    out: &'a mut [f64],
+}
+
+impl pulp::NullaryFnOnce for Add<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call(self) {
+        self.lines.add_each(self.places, self.factor, self.out);
     }
 }
 

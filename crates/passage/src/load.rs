@@ -60,6 +60,7 @@ impl TrainLoad {
             statics: vec![Extreme::default(); bridge.positions()],
         };
         let mut block = Vec::new();
+        let mut follow = vec![0.0; modes.len()];
         let mut places = Vec::new();
         for from in (0..rows).step_by(BLOCK) {
             let count = BLOCK.min(rows - from);
@@ -88,7 +89,7 @@ impl TrainLoad {
                     }
                 }
                 let flexible = forces.iter().zip(modes).map(|(p, mode)| p / (mode.omega * mode.omega));
-                let follow: Vec<f64> = flexible.collect();
+                follow.iter_mut().zip(flexible).for_each(|(q, flexible)| *q = flexible);
                 let wide = statics.chunks_exact(WIDE).zip(bridge.position_rows().chunks_exact(modes.len().max(1)));
                 load.rest.extend(wide.map(|(value, rows)| {
                     let mut rest: [f64; WIDE] = std::array::from_fn(|i| value[i]);

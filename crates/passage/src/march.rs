@@ -3,6 +3,8 @@
 //! The loops run over modes and over groups of eight outputs; the instruction set is chosen at run time, the order of
 //! additions and their rounding are the same with all of them.
 
+use pulp::{Simd, WithSimd};
+
 use crate::extreme::{Extreme, WIDE, Watch};
 use crate::load::TrainLoad;
 use crate::modal::ModalBridge;
@@ -39,12 +41,12 @@ impl Quad {
     /// From p₀ to p₁.
     #[inline(always)]
     fn step(&mut self, p0: &[f64; QUAD], p1: &[f64; QUAD]) {
-        for i in 0..QUAD {
-            let (q, v) = (self.q[i], self.v[i]);
-            let row = |c: &[[f64; QUAD]; 4]| (c[2][i] * p0[i] + c[3][i] * p1[i]) + (c[0][i] * q + c[1][i] * v);
-            (self.q[i], self.v[i]) = (row(&self.position), row(&self.velocity));
-            self.a[i] = p1[i] - self.rate[i] * self.v[i] - self.omega2[i] * self.q[i];
-        }
+        let (q, v) = (self.q, self.v);
+        let ends = |c: &[[f64; QUAD]; 4]| -> [f64; QUAD] {
+            std::array::from_fn(|i| (c[2][i] * p0[i] + c[3][i] * p1[i]) + (c[0][i] * q[i] + c[1][i] * v[i]))
+        };
+        (self.q, self.v) = (ends(&self.position), ends(&self.velocity));
+        self.a = std::array::from_fn(|i| p1[i] - self.rate[i] * self.v[i] - self.omega2[i] * self.q[i]);
     }
 }
 
@@ -85,9 +87,8 @@ impl<'a> March<'a> {
             let mut quad = Quad::default();
             for (i, mode) in chunk.iter().enumerate() {
                 let Coefficients { position, velocity } = mode.step(self.h);
-                for k in 0..4 {
-                    (quad.position[k][i], quad.velocity[k][i]) = (position[k], velocity[k]);
-                }
+                quad.position.iter_mut().zip(position).for_each(|(row, c)| row[i] = c);
+                quad.velocity.iter_mut().zip(velocity).for_each(|(row, c)| row[i] = c);
                 (quad.rate[i], quad.omega2[i]) = (mode.rate, mode.omega * mode.omega);
             }
             quad
@@ -102,7 +103,8 @@ impl<'a> March<'a> {
         let accelerations = self.bridge.outputs().len() - positions;
         let [wide, fast] = [positions, accelerations].map(|n| n.div_ceil(WIDE));
         let mut watches = vec![Watch::default(); wide + fast];
-        pulp::Arch::new().dispatch(|| self.run(&mut quads, &mut watches, wide, &mut Nothing));
+        let job = Job { march: self, quads: &mut quads, watches: &mut watches, wide };
+        pulp::Arch::new().dispatch(job);
         let found = watches.iter().flat_map(|watch| watch.finish(self.steps + 1, self.h));
         let found: Vec<Extreme> = found.collect();
         let (slow, quick) = found.split_at(wide * WIDE);
@@ -112,7 +114,7 @@ impl<'a> March<'a> {
     /// Runs with every modal motion handed to `keep`.
     pub fn kept(&self, keep: &mut impl Keep) {
         let mut quads = self.quads();
-        self.run(&mut quads, &mut [], 0, keep);
+        self.run(pulp::Scalar::new(), &mut quads, &mut [], 0, keep);
     }
 
     /// Rest of a step's row; zero behind the train.
@@ -122,19 +124,19 @@ impl<'a> March<'a> {
     }
 
     #[inline(always)]
-    fn run(&self, quads: &mut [Quad], watches: &mut [Watch], wide: usize, keep: &mut impl Keep) {
+    fn run<S: Simd>(&self, simd: S, quads: &mut [Quad], watches: &mut [Watch], wide: usize, keep: &mut impl Keep) {
         let modes = self.bridge.modes().len();
         let (rows, fast_rows) = (self.bridge.position_rows(), self.bridge.acceleration_rows());
         let (slow, fast) = watches.split_at_mut(wide);
         let groups = self.load.rest.len() / self.load.rows.max(1);
         let (forces, _) = self.load.forces.as_chunks::<QUAD>();
-        let zero = [0.0; QUAD];
+        let (zero, across) = ([0.0; QUAD], quads.len());
         let mut q = vec![0.0; quads.len() * QUAD];
         let mut a = vec![0.0; quads.len() * QUAD];
         for n in 1..=self.steps {
             let [before, now] = [(n - 1) * self.stride, n * self.stride];
             for (j, quad) in quads.iter_mut().enumerate() {
-                let force = |row: usize| forces.get(row * (forces.len() / self.load.rows) + j).unwrap_or(&zero);
+                let force = |row: usize| forces.get(row * across + j).unwrap_or(&zero);
                 quad.step(force(before), force(now));
                 keep.keep(&quad.q, &quad.a);
                 q[j * QUAD..(j + 1) * QUAD].copy_from_slice(&quad.q);
@@ -142,24 +144,46 @@ impl<'a> March<'a> {
             }
             for (group, watch) in slow.iter_mut().enumerate() {
                 let mut y = self.rest(now, groups, group);
-                combine(&rows[group * modes..(group + 1) * modes], &q, &mut y);
-                watch.look(&y, n, self.h);
+                add(simd, &rows[group * modes..(group + 1) * modes], &q, &mut y);
+                watch.look_with(simd, &y, n, self.h);
             }
             for (group, watch) in fast.iter_mut().enumerate() {
                 let mut y = [0.0; WIDE];
-                combine(&fast_rows[group * modes..(group + 1) * modes], &a, &mut y);
-                watch.look(&y, n, self.h);
+                add(simd, &fast_rows[group * modes..(group + 1) * modes], &a, &mut y);
+                watch.look_with(simd, &y, n, self.h);
             }
         }
     }
 }
 
-/// y ← y + Σ_j row_j x_j.
-#[inline(always)]
-pub fn combine(rows: &[[f64; WIDE]], x: &[f64], y: &mut [f64; WIDE]) {
-    for (row, x) in rows.iter().zip(x) {
-        for i in 0..WIDE {
-            y[i] += row[i] * x;
-        }
+/// A march under an instruction set.
+struct Job<'a, 'b> {
+    march: &'a March<'b>,
+    quads: &'a mut [Quad],
+    watches: &'a mut [Watch],
+    wide: usize,
+}
+
+impl WithSimd for Job<'_, '_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) {
+        self.march.run(simd, self.quads, self.watches, self.wide, &mut Nothing);
     }
+}
+
+/// y ← y + Σ_j row_j x_j, added in the order of j.
+#[inline(always)]
+fn add<S: Simd>(simd: S, rows: &[[f64; WIDE]], x: &[f64], y: &mut [f64; WIDE]) {
+    for (row, x) in rows.iter().zip(x) {
+        let x = simd.splat_f64s(*x);
+        let lanes = S::as_mut_simd_f64s(y).0.iter_mut().zip(S::as_simd_f64s(row).0);
+        lanes.for_each(|(y, row)| *y = simd.add_f64s(*y, simd.mul_f64s(*row, x)));
+    }
+}
+
+/// The same without a choice of instructions.
+pub fn combine(rows: &[[f64; WIDE]], x: &[f64], y: &mut [f64; WIDE]) {
+    add(pulp::Scalar::new(), rows, x, y);
 }

@@ -54,7 +54,7 @@ impl Default for Settings {
 /// Why there is no modal bridge.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Refused {
-    /// Dashpots or a damping matrix: it takes another way.
+    /// Dashpots or a damping matrix: it takes the way of one axle, [`crate::one_axle`].
     NotDiagonal,
     /// Anything else.
     Model(ModelError),
@@ -121,6 +121,24 @@ impl ModalBridge {
         }
     }
 
+    /// Influence lines alone, without any mode: for static answers of every bridge, also of one with dashpots. Passages over
+    /// it have static answers, too, and nothing else.
+    ///
+    /// # Errors
+    /// Anything in the specification that cannot be.
+    pub fn of_statics(spec: &BridgeSpec, settings: &Settings) -> Result<Self, ModelError> {
+        let per_span = settings.points_per_span.max(20);
+        match &spec.structure {
+            StructureSpec::Beams { .. } | StructureSpec::Frame(_) => {
+                Self::made(&Plane::new(spec, per_span, settings.forces)?, Vec::new(), Vec::new(), settings)
+            }
+            StructureSpec::FiniteElements(_) | StructureSpec::Matrices { .. } => {
+                Self::made(&Sampled::new(spec, per_span)?, Vec::new(), Vec::new(), settings)
+            }
+            StructureSpec::Stored => Err(ModelError("bridge: a stored bridge has no path".into())),
+        }
+    }
+
     fn of(source: &impl Source, spec: &BridgeSpec, settings: &Settings) -> Result<Self, Refused> {
         let pencil = source.pencil();
         if pencil.has_dashpots() {
@@ -155,6 +173,20 @@ impl ModalBridge {
         let shapes: Vec<Vec<f64>> =
             modes.shapes.iter().map(|shape| shape.iter().map(|u| scale * u).collect()).collect();
         let (oscillators, shapes) = excited(source, oscillators, shapes);
+        let mut bridge = Self::made(source, oscillators, shapes, settings)?;
+        bridge.remarks = remarks;
+        Ok(bridge)
+    }
+
+    /// Of modes under the factors in force.
+    fn made(
+        source: &impl Source,
+        modes: Vec<Oscillator>,
+        shapes: Vec<Vec<f64>>,
+        settings: &Settings,
+    ) -> Result<Self, ModelError> {
+        let stiffness = settings.stiffness;
+        let statics = source.pencil().factor(1.0, 0.0, 0.0).map_err(|e| ModelError(format!("bridge: {e}")))?;
         let [m, k] = [shapes.len(), source.outputs().len()];
         let pads = [padded(m, 4), padded(k, WIDE)];
         let lines = source.lines(&shapes, pads, &statics)?;
@@ -173,16 +205,15 @@ impl ModalBridge {
         let all: Vec<usize> = (0..k).collect();
         // A displacement's influence line belongs to the stiffness without factor.
         let own: Vec<f64> = source.outputs().iter().map(|o| if internal(o) { 1.0 } else { 1.0 / stiffness }).collect();
-        let lines = lines.scaled(pads[0], &own);
         Ok(Self {
-            modes: oscillators,
+            modes,
             position_rows: grouped(&rows, &all),
             acceleration_rows: grouped(&rows, &moving),
             positions: k,
             outputs,
-            lines,
+            lines: lines.scaled(pads[0], &own),
             spans: source.spans().to_vec(),
-            remarks,
+            remarks: Vec::new(),
         })
     }
 

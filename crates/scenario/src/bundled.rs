@@ -14,6 +14,33 @@ pub fn default_scenario_text() -> &'static str {
     include_str!("../../../examples/default.json")
 }
 
+/// Kinds of data files.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// Vehicles.
+    Cars,
+    /// Trains of vehicles.
+    Trains,
+    /// Kinds of track.
+    Tracks,
+    /// Spectra of irregularity.
+    Spectra,
+    /// Frames.
+    Bridges,
+}
+
+/// Names and texts (JSON, each with a field `source`) of the data files of a kind.
+#[must_use]
+pub fn files(kind: Kind) -> &'static [(&'static str, &'static str)] {
+    match kind {
+        Kind::Cars => CARS,
+        Kind::Trains => TRAINS,
+        Kind::Tracks => TRACKS,
+        Kind::Spectra => SPECTRA,
+        Kind::Bridges => FRAMES,
+    }
+}
+
 /// A bundled train: names of its cars from the front.
 #[derive(Deserialize)]
 struct Consist {

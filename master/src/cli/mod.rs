@@ -8,11 +8,14 @@ mod export_ssp;
 mod generate;
 mod inspect;
 mod interoperability;
+mod list;
 mod new;
 mod report;
 mod run;
 mod seconds;
 mod set;
+mod signature;
+mod statics;
 mod view;
 
 use std::path::PathBuf;
@@ -27,10 +30,13 @@ pub use export_ssp::{ExportSsp, Master};
 pub use generate::{Generate, Generated};
 pub use inspect::Inspect;
 pub use interoperability::Interoperability;
+pub use list::{List, Listed};
 pub use new::{Begin, New};
 pub use report::Report;
 pub use run::{Isolate, Run};
 pub use set::Set;
+pub use signature::Signature;
+pub use statics::Static;
 pub use view::View;
 
 /// Train–track–bridge co-simulation.
@@ -126,6 +132,15 @@ pub enum Command {
     /// Write the bridge for ParaView: sag under its own weight, natural modes, the crossing of the train
     #[command(after_help = view::HELP)]
     View(View),
+    /// List what comes with the program: trains, cars, tracks, spectra, bridges, load models
+    #[command(after_help = list::HELP)]
+    List(List),
+    /// Show at which wavelengths trains excite a bridge, and whether HSLM-A covers them
+    #[command(after_help = signature::HELP)]
+    Signature(Signature),
+    /// Static values of a bridge under a load model or a train, wherever it acts worst
+    #[command(after_help = statics::HELP)]
+    Static(Static),
     /// Print the JSON Schema of scenario files
     #[command(after_help = SCHEMA_HELP)]
     Schema {
