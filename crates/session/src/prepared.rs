@@ -9,10 +9,17 @@ use ttb_scenario::spec::{BridgeSpec, TrainTrackSpec};
 use crate::case::Case;
 use crate::sides::Sides;
 
-/// A track and a bridge, ready for runs that differ in train, speed, irregularity, step or end.
+/// A track and a bridge, ready for runs that differ in train, speed, irregularity, step or end. A clone shares both: a thread
+/// that runs has one of its own.
 pub struct Prepared<T, B> {
     track: Arc<T>,
     bridge: Arc<B>,
+}
+
+impl<T, B> Clone for Prepared<T, B> {
+    fn clone(&self) -> Self {
+        Self { track: Arc::clone(&self.track), bridge: Arc::clone(&self.bridge) }
+    }
 }
 
 impl<T: Prepare<Spec = TrainTrackSpec>, B: Prepare<Spec = BridgeSpec>> Prepared<T, B> {
@@ -22,6 +29,11 @@ impl<T: Prepare<Spec = TrainTrackSpec>, B: Prepare<Spec = BridgeSpec>> Prepared<
     /// Something in it cannot be built.
     pub fn new(checked: &Checked) -> Result<Self, ModelError> {
         Ok(Self { track: T::prepare(&checked.train_track)?, bridge: B::prepare(&checked.bridge)? })
+    }
+
+    /// Whether bridge and track serve a scenario as they are. A track costs little; a bridge may cost minutes.
+    pub fn serves(&self, checked: &Checked) -> [bool; 2] {
+        [self.bridge.serves(&checked.bridge), self.track.serves(&checked.train_track)]
     }
 
     /// Both sides of a scenario in initialization mode. A side that its track or bridge does not serve is prepared anew,
