@@ -55,9 +55,9 @@ impl Drawing for Figure<'_> {
         for ((time, title), area) in stretches.into_iter().zip(charts.split_evenly((2, 1))) {
             let curves = self.within(&time);
             let title = format!("{title}, {}", QUANTITIES[self.quantity].unit);
-            Panel { title, time, names_time: true, shaded: None, curves: &curves }.draw(&area, scale)?;
+            Panel { title, time, axis: Some("time, s"), shaded: None, curves: &curves }.draw(&area, scale)?;
         }
-        names(&beside, &self.within(&(0.0..longest)), None, scale)
+        names(&beside, self.within(&(0.0..longest)).iter(), None, scale)
     }
 }
 

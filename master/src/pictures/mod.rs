@@ -7,3 +7,4 @@ mod panel;
 mod pen;
 pub mod plot;
 pub mod slopes;
+pub mod speeds;

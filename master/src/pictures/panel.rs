@@ -55,6 +55,11 @@ impl Stroke {
         Self { color: REFERENCE, width: 3.0, opacity: 0.35 }
     }
 
+    /// Of a curve without a name, behind those that have one.
+    pub fn rest() -> Self {
+        Self { color: REFERENCE, width: 1.0, opacity: 0.25 }
+    }
+
     fn style(self, scale: f64) -> ShapeStyle {
         self.color.mix(self.opacity).stroke_width((self.width * scale).round() as u32)
     }
@@ -64,10 +69,10 @@ impl Stroke {
 pub struct Panel<'a> {
     /// Above it.
     pub title: String,
-    /// Its axis of time, s.
+    /// Its axis: of time, s, or of what else the picture is over.
     pub time: Range<f64>,
-    /// Whether the axis has its name below it.
-    pub names_time: bool,
+    /// The name below the axis, if it has one.
+    pub axis: Option<&'static str>,
     /// A stretch of time that is shaded, s.
     pub shaded: Option<Range<f64>>,
     /// The curves; none leaves the axes.
@@ -91,7 +96,7 @@ impl Panel<'_> {
             .caption(&self.title, letters(15.0))
             .margin(px(4.0))
             .margin_right(px(24.0))
-            .x_label_area_size(px(if self.names_time { 36.0 } else { 22.0 }))
+            .x_label_area_size(px(if self.axis.is_some() { 36.0 } else { 22.0 }))
             .y_label_area_size(px(66.0))
             .build_cartesian_2d(time.clone(), limits.clone())?;
         if let Some(shaded) = &self.shaded {
@@ -105,8 +110,8 @@ impl Panel<'_> {
         mesh.light_line_style(TRANSPARENT).x_labels(10).y_labels(5);
         let (of_time, of_value) = (|t: &f64| label(*t, time.end - time.start), |x: &f64| label(*x, span));
         mesh.x_label_formatter(&of_time).y_label_formatter(&of_value);
-        if self.names_time {
-            mesh.x_desc("time, s");
+        if let Some(axis) = self.axis {
+            mesh.x_desc(axis);
         }
         mesh.label_style(letters(12.0)).axis_desc_style(letters(13.0)).draw()?;
         for curve in self.curves {
@@ -120,9 +125,9 @@ impl Panel<'_> {
 ///
 /// # Errors
 /// The canvas fails.
-pub fn names<'a, B: DrawingBackend + 'a>(
+pub fn names<'a, 'c, B: DrawingBackend + 'a>(
     area: &DrawingArea<B, Shift>,
-    curves: &[Curve],
+    curves: impl Iterator<Item = &'c Curve>,
     shaded: Option<&str>,
     scale: f64,
 ) -> Result<(), Failed<'a>>
@@ -133,13 +138,15 @@ where
     let row = |at: usize| px(40.0 + 20.0 * at as f64);
     let text =
         |name: &str, y: i32| Text::new(name.to_string(), (px(30.0), y - px(7.0)), (SANS, 12.0 * scale).into_font());
-    for (at, curve) in curves.iter().enumerate() {
+    let mut count = 0;
+    for (at, curve) in curves.enumerate() {
+        count = at + 1;
         let y = row(at);
         area.draw(&PathElement::new(vec![(px(4.0), y), (px(24.0), y)], curve.stroke.style(scale)))?;
         area.draw(&text(&curve.name, y))?;
     }
     if let Some(name) = shaded {
-        let y = row(curves.len());
+        let y = row(count);
         area.draw(&Rectangle::new([(px(4.0), y - px(6.0)), (px(24.0), y + px(6.0))], SHADE.filled()))?;
         area.draw(&text(name, y))?;
     }

@@ -176,9 +176,10 @@ impl Drawing for Results<'_> {
         let count = self.panels.len();
         for ((at, (title, curves)), area) in self.panels.iter().enumerate().zip(below.split_evenly((count.max(1), 1))) {
             let (chart, beside) = area.split_horizontally(area.dim_in_pixel().0 - (NAMES * scale) as u32);
-            let (title, names_time, time) = (title.to_string(), at + 1 == count, self.time.clone());
-            Panel { title, time, names_time, shaded: self.shaded.clone(), curves }.draw(&chart, scale)?;
-            names(&beside, curves, self.shaded.as_ref().filter(|_| at == 0).map(|_| SHADED), scale)?;
+            let (title, time) = (title.to_string(), self.time.clone());
+            let axis = (at + 1 == count).then_some("time, s");
+            Panel { title, time, axis, shaded: self.shaded.clone(), curves }.draw(&chart, scale)?;
+            names(&beside, curves.iter(), self.shaded.as_ref().filter(|_| at == 0).map(|_| SHADED), scale)?;
         }
         Ok(())
     }
