@@ -19,6 +19,9 @@ pub trait Compute: Sync {
     /// How many runs a call takes best.
     fn batch(&self) -> usize;
 
+    /// Puts runs into the order in which they cost least together; the results do not depend on it.
+    fn arrange(&self, _runs: &mut [Run]) {}
+
     /// Computes runs: one answer each, in their order. `stop` asks to leave off; whoever looks at it does so between steps.
     fn compute(&self, runs: &[Run], stop: &AtomicBool) -> Vec<Computed>;
 }

@@ -14,22 +14,34 @@
 //! they have the same bytes with one worker or many, in any order, after any number of ends by force.
 
 pub mod compute;
+pub mod coupled;
 pub mod error;
+pub mod expand;
+pub mod facts;
+pub mod folder;
+pub mod governing;
 pub mod hdf5;
 pub mod history;
 pub mod identity;
 pub mod journal;
 pub mod list;
+pub mod modal;
+pub mod one_axle;
 pub mod plan;
+pub mod points;
 pub mod pool;
 pub mod record;
+pub mod refine;
+pub mod request;
 pub mod shard;
 pub mod slurm;
+pub mod speeds;
 pub mod status;
 pub mod tables;
 
 pub use compute::{Compute, Computed};
 pub use error::Error;
+pub use folder::Folder;
 pub use journal::Journal;
 pub use plan::{Plan, Run, Way};
 pub use record::{Envelope, Record};

@@ -143,10 +143,16 @@ pub struct Plan {
     pub scenario: String,
     /// SHA-256 of what the scenario means.
     pub scenario_sha256: String,
+    /// Keys of the scenario that have other values in all runs.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub set: Vec<(String, Value)>,
     /// How runs are computed.
     pub way: Way,
     /// Whether resonances are refined.
     pub refine: bool,
+    /// Whether moments, shears and reactions are looked at, too (modal way).
+    #[serde(default)]
+    pub forces: bool,
     /// Trains.
     pub trains: Vec<Train>,
     /// Changes of the scenario.

@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 
 use serde::{Deserialize, Serialize};
-use ttb_assessment::Peak;
+use ttb_assessment::{Peak, Statistic};
 
 /// Format of the journal's files; another one is not read.
 pub const FORMAT: u32 = 1;
@@ -87,22 +87,10 @@ impl Record {
         }
     }
 
-    /// The value of a quantity with its filter and statistic, if the run has it.
-    pub fn value(&self, key: &Key) -> Option<f64> {
-        let is = |peak: &&Peak| {
-            peak.quantity == key.quantity && peak.filter == key.filter && peak.statistic.name() == key.statistic
-        };
-        self.peaks.iter().filter(is).map(|peak| peak.value).reduce(f64::max)
+    /// The greatest amount of a quantity behind a filter, over places and extremes; `None` if the run has none.
+    pub fn amount(&self, quantity: &str, filter: &str) -> Option<f64> {
+        let extreme = |peak: &&Peak| matches!(peak.statistic, Statistic::AbsMax | Statistic::Max | Statistic::Min);
+        let is = |peak: &&Peak| peak.quantity == quantity && peak.filter == filter;
+        self.peaks.iter().filter(is).filter(extreme).map(|peak| peak.value.abs()).reduce(f64::max)
     }
-}
-
-/// Names a reduced value among a run's.
-#[derive(Clone, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
-pub struct Key {
-    /// What.
-    pub quantity: String,
-    /// Label of the filter.
-    pub filter: String,
-    /// Name of the statistic.
-    pub statistic: String,
 }

@@ -4,11 +4,48 @@ mod common;
 
 use std::fs;
 use std::path::Path;
-use std::sync::atomic::AtomicBool;
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicBool, Ordering};
 
-use common::{Fake, plan};
+use common::{plan, record};
 use ttb_campaign::status::Status;
-use ttb_campaign::{Compute, Journal, Plan, Run, Shard, hdf5, pool, tables};
+use ttb_campaign::{Compute, Computed, Journal, Plan, Record, Run, Shard, hdf5, pool, tables};
+
+/// Counts what it computes; a run at a speed of `failing` km/h fails.
+#[derive(Default)]
+struct Fake {
+    computed: Mutex<Vec<String>>,
+    failing: Option<f64>,
+    /// Stops after so many runs.
+    ends_after: Option<usize>,
+    batch: usize,
+}
+
+impl Compute for Fake {
+    fn batch(&self) -> usize {
+        self.batch.max(1)
+    }
+
+    fn compute(&self, runs: &[Run], stop: &AtomicBool) -> Vec<Computed> {
+        runs.iter().map(|run| self.one(run, stop)).collect()
+    }
+}
+
+impl Fake {
+    fn one(&self, run: &Run, stop: &AtomicBool) -> Computed {
+        let mut computed = self.computed.lock().expect("no panic");
+        if self.ends_after.is_some_and(|n| computed.len() >= n) {
+            stop.store(true, Ordering::Relaxed);
+            return Computed::Stopped;
+        }
+        computed.push(run.id.clone());
+        let speed = run.speed_km_h.unwrap_or(0.0);
+        if self.failing == Some(speed) {
+            return Computed::Done(Record::failed(&run.id, "did not converge, \"twice\"", 0.1));
+        }
+        Computed::Done(record(&run.id, speed + run.train as f64))
+    }
+}
 
 fn compute(with: &dyn Compute, runs: &[Run], workers: usize, folder: &Path) -> pool::Progress {
     let journal = Journal::open(folder).expect("journal");

@@ -1,11 +1,8 @@
-//! A way that costs nothing: values that follow from the run alone.
-
-use std::sync::Mutex;
-use std::sync::atomic::{AtomicBool, Ordering};
+//! A plan, and records that cost nothing.
 
 use ttb_assessment::peak::{Peak, PlaceKind, Statistic, quantity};
 use ttb_campaign::plan::{FORMAT, Load, Rail, Train, Variant};
-use ttb_campaign::{Compute, Computed, Envelope, Plan, Record, Run, Way};
+use ttb_campaign::{Envelope, Plan, Record, Way};
 
 /// A plan of `trains` trains at `speeds` speeds.
 pub fn plan(trains: usize, speeds: usize) -> Plan {
@@ -19,48 +16,14 @@ pub fn plan(trains: usize, speeds: usize) -> Plan {
         version: "0".into(),
         scenario: "my.json".into(),
         scenario_sha256: "00".into(),
+        set: Vec::new(),
         way: Way::Modal,
         refine: false,
+        forces: false,
         trains: (0..trains).map(train).collect(),
         variants: vec![Variant::default()],
         rails: vec![Rail::Scenario],
         speeds_km_h: (0..speeds).map(|i| 100.0 + i as f64).collect(),
-    }
-}
-
-/// Counts what it computes; a run at a speed of `failing` km/h fails.
-#[derive(Default)]
-pub struct Fake {
-    pub computed: Mutex<Vec<String>>,
-    pub failing: Option<f64>,
-    /// Stops after so many runs.
-    pub ends_after: Option<usize>,
-    pub batch: usize,
-}
-
-impl Compute for Fake {
-    fn batch(&self) -> usize {
-        self.batch.max(1)
-    }
-
-    fn compute(&self, runs: &[Run], stop: &AtomicBool) -> Vec<Computed> {
-        runs.iter().map(|run| self.one(run, stop)).collect()
-    }
-}
-
-impl Fake {
-    fn one(&self, run: &Run, stop: &AtomicBool) -> Computed {
-        let mut computed = self.computed.lock().expect("no panic");
-        if self.ends_after.is_some_and(|n| computed.len() >= n) {
-            stop.store(true, Ordering::Relaxed);
-            return Computed::Stopped;
-        }
-        computed.push(run.id.clone());
-        let speed = run.speed_km_h.unwrap_or(0.0);
-        if self.failing == Some(speed) {
-            return Computed::Done(Record::failed(&run.id, "did not converge, \"twice\"", 0.1));
-        }
-        Computed::Done(record(&run.id, speed + run.train as f64))
     }
 }
 

@@ -1,0 +1,21 @@
+//! The coupled way: both sides in this process, iterated step by step as `ttb run` does, over one shared track and bridge.
+//!
+//! ```text
+//! source     the scenario with other values for some keys: train, speed, irregularity, variant
+//! shared     tracks and bridges that several runs and threads share
+//! vehicles   vehicles on their track over the bridge
+//! forces     axle loads on a rigid track over the bridge; loads: runs of them
+//! rows       histories reduced to rows and envelopes
+//! ```
+
+pub mod forces;
+pub mod loads;
+pub mod rows;
+pub mod shared;
+pub mod source;
+pub mod vehicles;
+
+pub use loads::{Bridges, Loads};
+pub use shared::Shared;
+pub use source::Source;
+pub use vehicles::Vehicles;

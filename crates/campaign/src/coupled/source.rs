@@ -1,0 +1,69 @@
+//! A scenario with other values for some of its keys.
+
+use std::path::PathBuf;
+
+use serde_json::{Value, json};
+use ttb_scenario::{Checked, Problems, Setting, from_str_with};
+
+use crate::plan::{Load, Plan, Rail, Run, Variant};
+
+/// A scenario file as it was read.
+#[derive(Clone, Debug)]
+pub struct Source {
+    /// Its text.
+    pub text: String,
+    /// The folder from which it names files.
+    pub folder: PathBuf,
+    /// What messages call it.
+    pub name: String,
+    /// Other values that the command line gives for all runs.
+    pub settings: Vec<Setting>,
+}
+
+impl Source {
+    /// The scenario as it is.
+    ///
+    /// # Errors
+    /// All its problems.
+    pub fn checked(&self) -> Result<Checked, Problems> {
+        self.with(Vec::new())
+    }
+
+    /// The scenario with the keys of a variant.
+    ///
+    /// # Errors
+    /// All its problems.
+    pub fn varied(&self, variant: &Variant) -> Result<Checked, Problems> {
+        self.with(of_variant(variant))
+    }
+
+    /// The scenario of a run. Loads take no vehicles: only their speed is set.
+    ///
+    /// # Errors
+    /// All its problems.
+    pub fn of_run(&self, plan: &Plan, run: &Run) -> Result<Checked, Problems> {
+        let mut settings = of_variant(&plan.variants[run.variant]);
+        let mut set = |key: &str, value: Value| settings.push(Setting { key: key.into(), value });
+        if let Load::Cars(cars) = &plan.trains[run.train].load {
+            set("train.cars", json!(cars));
+        }
+        if let Some(speed) = run.speed() {
+            set("train.speed", json!({ "m_s": speed }));
+        }
+        match run.rail {
+            Rail::Scenario => {}
+            Rail::Smooth => set("irregularity", json!({ "type": "none" })),
+            Rail::Seed(seed) => set("irregularity.seed", json!(seed)),
+        }
+        self.with(settings)
+    }
+
+    fn with(&self, settings: Vec<Setting>) -> Result<Checked, Problems> {
+        let settings: Vec<Setting> = self.settings.iter().cloned().chain(settings).collect();
+        from_str_with(&self.text, &self.folder, &self.name, &settings)
+    }
+}
+
+fn of_variant(variant: &Variant) -> Vec<Setting> {
+    variant.set.iter().map(|(key, value)| Setting { key: key.clone(), value: value.clone() }).collect()
+}

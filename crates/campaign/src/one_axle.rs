@@ -1,0 +1,154 @@
+//! The way of one axle: the passage of a unit axle at each speed gives every train at that speed by superposition
+//! (`ttb_passage`), whatever the bridge's damping.
+//!
+//! Runs are computed speed by speed, all trains of one speed together, so that a speed costs one passage.
+
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Mutex, PoisonError};
+use std::time::Instant;
+
+use ttb_assessment::filter::RAW;
+use ttb_assessment::{Facts, Filter, Peak, PlaceKind, Statistic};
+use ttb_passage::one_axle::Unit;
+use ttb_passage::own::OwnBridge;
+use ttb_passage::{Extreme, Quantity};
+use ttb_scenario::deck::Deck;
+
+use crate::compute::{Compute, Computed};
+use crate::coupled::loads::free_vibration;
+use crate::coupled::{Source, vehicles};
+use crate::modal::{Rows, force_train};
+use crate::plan::{Plan, Run, Train};
+use crate::record::{FORMAT, Record};
+
+/// Samples of the shortest period that counts, and its margin, as in the modal way.
+const SAMPLES: f64 = 20.0;
+const MARGIN: f64 = 1.2;
+
+/// A bridge of a variant.
+struct Known {
+    own: OwnBridge,
+    length: f64,
+    step: f64,
+    free: f64,
+}
+
+/// What runs by one axle share.
+pub struct OneAxle<'a> {
+    plan: &'a Plan,
+    source: &'a Source,
+    facts: &'a Facts,
+    filters: Vec<Filter>,
+    /// First to last axle of the longest train, m.
+    longest: f64,
+    bridges: Mutex<Vec<Option<Result<Arc<Known>, String>>>>,
+}
+
+impl<'a> OneAxle<'a> {
+    /// Of a plan. `filters` are those of the deck's acceleration.
+    pub fn new(plan: &'a Plan, source: &'a Source, facts: &'a Facts, filters: Vec<Filter>) -> Self {
+        let longest = plan.trains.iter().filter_map(Train::length).fold(0.0, f64::max);
+        let bridges = Mutex::new(plan.variants.iter().map(|_| None).collect());
+        Self { plan, source, facts, filters, longest, bridges }
+    }
+
+    fn bridge(&self, variant: usize) -> Result<Arc<Known>, String> {
+        let mut bridges = self.bridges.lock().unwrap_or_else(PoisonError::into_inner);
+        let Some(place) = bridges.get_mut(variant) else { return Err("there is no such variant".into()) };
+        place.get_or_insert_with(|| self.make(variant).map(Arc::new)).clone()
+    }
+
+    fn make(&self, variant: usize) -> Result<Known, String> {
+        let variant = &self.plan.variants[variant];
+        let checked = self.source.varied(variant).map_err(|problems| problems.to_string())?;
+        let first = self.facts.n0_hz.unwrap_or(0.0);
+        let highest = MARGIN * 30.0_f64.max(1.5 * first).max(self.facts.third_mode_hz.unwrap_or(0.0));
+        let step = checked.steps().step.min(1.0 / (SAMPLES * highest));
+        let length = Deck::new(&checked.bridge.structure).map_or(0.0, |deck| deck.length);
+        let free = free_vibration(&checked.bridge, self.facts.n0_hz);
+        let own = OwnBridge::new(&checked.bridge, step).map_err(|error| error.to_string())?;
+        Ok(Known { own, length, step, free })
+    }
+
+    fn unit(&self, known: &Known, run: &Run) -> Result<Unit, String> {
+        let Some(speed) = run.speed().filter(|speed| *speed > 0.0) else {
+            return Err("axle loads need a speed: give speeds".into());
+        };
+        let mut bridge = known.own.at_rest().map_err(|error| error.to_string())?;
+        let set = vehicles::set_bridge(bridge.instance(), &self.plan.variants[run.variant]);
+        set.map_err(|error| error.to_string())?;
+        // The same for all trains, whichever are computed now.
+        let time = (known.length + self.longest) / speed + known.free;
+        Unit::run(&mut bridge, known.own.path(), speed, known.step, time).map_err(|failure| failure.to_string())
+    }
+
+    fn at_one_speed(&self, runs: &[Run], stop: &AtomicBool, out: &mut Vec<Computed>) {
+        let begin = Instant::now();
+        let Some(first) = runs.first() else { return };
+        if stop.load(Ordering::Relaxed) {
+            return out.extend(runs.iter().map(|_| Computed::Stopped));
+        }
+        let found = self.bridge(first.variant).and_then(|known| Ok((self.unit(&known, first)?, known)));
+        // What all share counts for each.
+        let share = begin.elapsed().as_secs_f64() / runs.len() as f64;
+        for run in runs {
+            let begin = Instant::now();
+            let record = match &found {
+                Ok((unit, known)) => self.record(run, unit, known),
+                Err(error) => Record::failed(&run.id, error.as_str(), 0.0),
+            };
+            out.push(Computed::Done(Record { seconds: share + begin.elapsed().as_secs_f64(), ..record }));
+        }
+    }
+
+    fn record(&self, run: &Run, unit: &Unit, known: &Known) -> Record {
+        let Some(train) = force_train(&self.plan.trains[run.train]) else {
+            return Record::failed(&run.id, "the way of one axle takes axle loads only", 0.0);
+        };
+        let mut rows = Rows::default();
+        for (output, history) in unit.outputs.iter().zip(unit.histories(&train, known.free)) {
+            rows.add(output, RAW, &Extreme::of(&history, unit.h), None);
+            if output.quantity != Quantity::Acceleration {
+                continue;
+            }
+            for filter in &self.filters {
+                match filter.apply(&history, 1.0 / unit.h, unit.speed * unit.h) {
+                    Ok(filtered) => rows.add(output, &filter.label(), &Extreme::of(&filtered, unit.h), None),
+                    Err(error) => return Record::failed(&run.id, format!("{}: {error}", filter.label()), 0.0),
+                }
+            }
+        }
+        let mut peaks = rows.peaks();
+        peaks.push(Peak::raw("superposition.error", PlaceKind::Whole, Statistic::Value, unit.error));
+        Record {
+            format: FORMAT,
+            run_id: run.id.clone(),
+            error: None,
+            step: Some(unit.h),
+            modes: None,
+            seconds: 0.0,
+            peaks,
+            envelopes: rows.envelopes,
+        }
+    }
+}
+
+impl Compute for OneAxle<'_> {
+    fn batch(&self) -> usize {
+        self.plan.trains.len()
+    }
+
+    /// Speed by speed; what else differs keeps its order.
+    fn arrange(&self, runs: &mut [Run]) {
+        let speed = |run: &Run| run.speed_km_h.unwrap_or(0.0);
+        runs.sort_by(|a, b| a.variant.cmp(&b.variant).then(speed(a).total_cmp(&speed(b))));
+    }
+
+    fn compute(&self, runs: &[Run], stop: &AtomicBool) -> Vec<Computed> {
+        let mut out = Vec::with_capacity(runs.len());
+        for part in runs.chunk_by(|a, b| (a.variant, a.speed_km_h) == (b.variant, b.speed_km_h)) {
+            self.at_one_speed(part, stop, &mut out);
+        }
+        out
+    }
+}
