@@ -59,6 +59,14 @@ pub enum Error {
         /// How many.
         count: usize,
     },
+    /// Some runs of several failed; the others are kept.
+    #[error("{count} of {of} runs failed; each is a row of runs.csv with its message")]
+    RunsFailed {
+        /// How many.
+        count: usize,
+        /// Of so many.
+        of: usize,
+    },
     /// Ctrl-C, or another signal.
     #[error("interrupted by {}; the results so far are kept", .0.name())]
     Interrupted(Signal),
@@ -74,6 +82,7 @@ impl Error {
             Self::Fmu(_) | Self::NoReturn(_) => 4,
             Self::Io { .. } | Self::Pack(_) => 5,
             Self::Exceeded { .. } => 6,
+            Self::RunsFailed { .. } => 7,
             Self::Interrupted(signal) => signal.code(),
         }
     }
@@ -88,6 +97,7 @@ impl Error {
             Self::Io { .. } | Self::Pack(_) => "io-failed",
             Self::Findings { .. } => "findings",
             Self::Exceeded { .. } => "exceeded",
+            Self::RunsFailed { .. } => "runs-failed",
             Self::Interrupted(_) => "interrupted",
         }
     }
@@ -115,6 +125,15 @@ impl From<IterationError> for Error {
                 Self::Fmu(format!("{error}; \"roll_back\": false in the bridge's map (--map) does without"))
             }
             other => Self::NotConverged(other),
+        }
+    }
+}
+
+impl From<ttb_campaign::Error> for Error {
+    fn from(error: ttb_campaign::Error) -> Self {
+        match error {
+            ttb_campaign::Error::Input(text) => Self::Input(text),
+            ttb_campaign::Error::Io { path, source } => Self::Io { path, source },
         }
     }
 }

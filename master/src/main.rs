@@ -5,8 +5,8 @@ use std::io::Write;
 use clap::Parser;
 use ttb::cli::{Cli, Command};
 use ttb::commands::{
-    accuracy, build, check, check_scenario, compare, export_ssp, generate, help_files, host, inspect, inspect_bridge,
-    interoperability, keeper, list, new, report, run, schema, signature, statics, view,
+    accuracy, build, campaign, check, check_scenario, compare, export_ssp, generate, help_files, host, inspect,
+    inspect_bridge, interoperability, keeper, list, new, report, run, schema, signature, statics, sweep, view,
 };
 use ttb::error::Error;
 use ttb::signals::Stop;
@@ -49,16 +49,18 @@ fn execute(command: Command, stop: &Stop) -> Result<(), Error> {
         Command::Check(arguments) => check::check(&arguments),
         Command::Compare(arguments) => compare::compare(&arguments, stop),
         Command::Accuracy(arguments) => accuracy::accuracy(&arguments, stop),
+        Command::Sweep(arguments) => sweep::sweep(&arguments, stop),
+        Command::Campaign(arguments) => campaign::campaign(&arguments, stop),
         Command::Inspect(arguments) => inspect::inspect(&arguments),
         Command::InspectBridge { file, set } => inspect_bridge::inspect(&file, &set),
         Command::Interoperability(arguments) => interoperability::interoperability(&arguments),
         Command::ExportSsp(arguments) => export_ssp::export(&arguments),
         Command::Generate(arguments) => generate::generate(&arguments),
         Command::View(arguments) => view::view(&arguments, stop),
+        Command::Schema { bridge, summary, verdicts } => schema::schema(bridge, summary, verdicts),
         Command::List(arguments) => list::list(&arguments),
         Command::Signature(arguments) => signature::signature(&arguments),
         Command::Static(arguments) => statics::compute(&arguments),
-        Command::Schema { bridge, summary, verdicts } => schema::schema(bridge, summary, verdicts),
         Command::Completions { shell } => help_files::completions(shell),
         Command::Man { output } => help_files::man(output.as_deref()),
         Command::Host { preload } => host::host(&preload),

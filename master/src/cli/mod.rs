@@ -2,6 +2,7 @@
 
 mod accuracy;
 mod build;
+mod campaign;
 mod check;
 mod compare;
 mod export_ssp;
@@ -16,6 +17,7 @@ mod seconds;
 mod set;
 mod signature;
 mod statics;
+mod sweep;
 mod view;
 
 use std::path::PathBuf;
@@ -24,6 +26,7 @@ use clap::{Parser, Subcommand};
 
 pub use accuracy::Accuracy;
 pub use build::Build;
+pub use campaign::{Campaign, Verb as CampaignVerb};
 pub use check::Check;
 pub use compare::{Budget, Compare, Compared, Fine};
 pub use export_ssp::{ExportSsp, Master};
@@ -37,6 +40,7 @@ pub use run::{Isolate, Run};
 pub use set::Set;
 pub use signature::Signature;
 pub use statics::Static;
+pub use sweep::{Common, Sweep, Way as SweepWay};
 pub use view::View;
 
 /// Train–track–bridge co-simulation.
@@ -65,6 +69,7 @@ Exit codes:
     4  an FMU failed
     5  input or output failed
     6  ttb report --check: a limit is exceeded
+    7  some runs of a sweep failed
   130  interrupted by Ctrl-C; results so far are kept
   143  ended by SIGTERM, 129: by SIGHUP; the same";
 
@@ -122,6 +127,12 @@ pub enum Command {
     /// Run a scenario at several steps and show how accurate every reported quantity is
     #[command(after_help = "The output folder gets accuracy.md, accuracy.csv and the plot accuracy.svg and .png.")]
     Accuracy(Accuracy),
+    /// Trains at many speeds over one bridge: which governs, with no resonance missed. Also variants and seeds
+    #[command(after_help = sweep::HELP)]
+    Sweep(Sweep),
+    /// A grid over any keys of a scenario, for many processors or a cluster; its status; its tables
+    #[command(after_help = campaign::HELP)]
+    Campaign(Campaign),
     /// Show what an FMU offers and propose a map of its variables
     Inspect(Inspect),
     /// Check and run what lies in a folder, FMUs and system structures, and write a page of counts

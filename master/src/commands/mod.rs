@@ -2,6 +2,7 @@
 
 pub mod accuracy;
 pub mod build;
+pub mod campaign;
 pub mod check;
 pub mod check_scenario;
 pub mod compare;
@@ -22,4 +23,5 @@ pub mod run;
 pub mod schema;
 pub mod signature;
 pub mod statics;
+pub mod sweep;
 pub mod view;

@@ -66,25 +66,26 @@ fn a_run_of_a_sweep_has_the_bits_of_the_same_scenario_run_alone() {
         }
         assert!(compared >= 8, "{compared} columns");
     }
-    // R1 at 250 km/h on its irregular rail: values computed independently (deck 0.17649 m/s², body 0.11819 m/s²).
+    // R1 at 250 km/h on its irregular rail, mid-span, raw and behind 30 Hz: values computed independently, m/s².
     let records = done(with.compute(&runs, &AtomicBool::new(false)));
-    let own = records[1].peaks.iter().find(|peak| peak.place == "mid" && peak.filter == "raw" && peak.unit == "m/s2");
-    assert!((own.expect("mid").value - 0.17649).abs() < 2e-5);
-    let body = records[1].peaks.iter().find(|peak| peak.quantity == "body.acceleration" && peak.filter == "raw");
-    assert!((body.expect("body").value - 0.11819).abs() < 2e-5);
+    for (filter, expected) in [("raw", 0.17649), (JUDGED.label().as_str(), 0.11287)] {
+        let is = |peak: &&ttb_assessment::Peak| peak.place == "mid" && peak.filter == filter && peak.unit == "m/s2";
+        let found = records[1].peaks.iter().find(is).expect("mid").value;
+        assert!((found - expected).abs() < 1e-5, "{filter}: {found}");
+    }
     let points = records[1].envelopes.iter().find(|one| one.quantity == DECK_DISPLACEMENT).expect("envelope");
     assert_eq!(points.x.len(), 23);
 }
 
-/// B25: L 25 m, m 15 t/m, EI 30 GN m², ζ 1 %, under HSLM-A3 at 250 km/h: 13.4 mm and 10.06 m/s² along the deck come from an
-/// independent program; here the two ways must agree, as must a variant of the mass.
+/// B25: L 25 m, m 15 t/m, EI 30 GN m², ζ 1 % in three modes, under HSLM-A3 at 250 km/h. The two ways agree, also in a variant
+/// of the mass; raw accelerations of the coupled way have higher modes, which are not damped here, and are not compared.
 #[test]
 fn loads_on_a_rigid_track_agree_with_the_modal_way() {
     let place = tempfile::tempdir().expect("folder");
     let path = place.path().join("b25.json");
     let text = r#"{ "train": { "cars": ["ice3"], "speed": { "km_h": 250 } },
         "bridge": { "structure": { "type": "beams", "spans": [{ "length": 25, "bending_stiffness": 30e9, "mass": 15000 }] },
-                    "damping": { "type": "modal", "ratio": 0.01, "modes": 3 }, "modes": 3 },
+                    "damping": { "type": "modal", "ratio": 0.01, "modes": 3 } },
         "time": { "step": 2e-4 } }"#;
     std::fs::write(&path, text).expect("written");
     let (source, criteria) = (source_of(&path), Criteria::bundled(DEFAULT).expect("bundled"));
@@ -110,11 +111,9 @@ fn loads_on_a_rigid_track_agree_with_the_modal_way() {
     for (coupled, modal) in coupled.iter().zip(&modal) {
         assert_eq!((&coupled.error, &modal.error), (&None, &None));
         let filtered = JUDGED.label();
-        for (quantity, filter, allowed) in [
-            (DECK_DISPLACEMENT, "raw", 1e-3),
-            (DECK_ACCELERATION, "raw", 5e-3),
-            (DECK_ACCELERATION, filtered.as_str(), 5e-3),
-        ] {
+        for (quantity, filter, allowed) in
+            [(DECK_DISPLACEMENT, "raw", 1e-3), (DECK_ACCELERATION, filtered.as_str(), 5e-3)]
+        {
             let [a, b] = [coupled, modal].map(|record| record.amount(quantity, filter).expect("value"));
             assert!((a / b - 1.0).abs() < allowed, "{quantity} {filter}: {a} coupled, {b} modal");
         }

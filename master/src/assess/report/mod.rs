@@ -143,7 +143,8 @@ fn changes(opened: &Opened, governing: Option<&Verdict>) -> Vec<Change> {
             continue;
         };
         let unit = if quantity == "deck.displacement" { "m" } else { "m/s2" };
-        let what = format!("{quantity}, raw, by the coupled way (run {})", one["run_id"].as_str().unwrap_or_default());
+        let text = |key: &str| one[key].as_str().unwrap_or_default();
+        let what = format!("{quantity}, {}, by the coupled way (run {})", text("filter"), text("run_id"));
         changes.push(Change { what, before: sweep, after: coupled, unit: unit.into() });
     }
     changes

@@ -1,0 +1,120 @@
+//! Runs of a plan, from the request or the stored plan to the tables.
+
+use std::path::Path;
+
+use ttb_campaign::expand::{self, Expanded};
+use ttb_campaign::plan::Plan;
+use ttb_campaign::request::Request;
+use ttb_campaign::status::Status;
+use ttb_campaign::{Folder, Shard, facts};
+use ttb_passage::{ModalBridge, Refused, Settings};
+
+use super::estimate::estimate;
+use super::outcome;
+use super::progress::Told;
+use super::runner::Runner;
+use crate::cli::Common;
+use crate::error::Error;
+use crate::results::folder::Folder as Claimed;
+use crate::signals::Stop;
+
+/// Version that decides results.
+const VERSION: &str = env!("CARGO_PKG_VERSION");
+
+/// Resolves and computes a request.
+pub fn request(request: &Request, common: &Common, stop: &Stop) -> Result<(), Error> {
+    let expanded = expand(request, &common.output)?;
+    if !common.quiet {
+        expanded.chosen.iter().for_each(|chosen| note!("ttb: {chosen}"));
+    }
+    compute(expanded, common, stop)
+}
+
+/// Resolves a request; the plan names its scenario from the folder `beside`.
+pub fn expand(request: &Request, beside: &Path) -> Result<Expanded, Error> {
+    let modal = |checked: &ttb_scenario::Checked| {
+        !matches!(ModalBridge::new(&checked.bridge, &Settings::default()), Err(Refused::NotDiagonal))
+    };
+    Ok(expand::expand(request, VERSION, beside, &modal)?)
+}
+
+/// A stored plan with its scenario, which must mean what it meant.
+pub fn stored(file: &Path) -> Result<Expanded, Error> {
+    let text = std::fs::read_to_string(file).map_err(Error::io(file))?;
+    let plan = Plan::parse(&text, &file.display().to_string())?;
+    let scenario = file.parent().unwrap_or(Path::new("")).join(&plan.scenario);
+    let source = expand::source(&scenario, plan.set.iter().cloned())?;
+    let checked = source.checked().map_err(Error::Scenario)?;
+    if checked.hash != plan.scenario_sha256 {
+        return Err(Error::Input(format!(
+            "{}: {} has changed since the plan was made. Either put it back as it was, or make the plan anew, with another \
+             folder or with --restart",
+            file.display(),
+            scenario.display()
+        )));
+    }
+    let facts = facts::of(&checked);
+    Ok(Expanded { plan, source, checked, facts, chosen: Vec::new() })
+}
+
+/// Computes what is missing, then makes the tables.
+pub fn compute(expanded: Expanded, common: &Common, stop: &Stop) -> Result<(), Error> {
+    let count = expanded.plan.runs().len();
+    if count == 0 {
+        return Err(Error::Input("no run is asked for: every train's greatest speed is below the first speed".into()));
+    }
+    let workers = common.jobs.unwrap_or_else(|| std::thread::available_parallelism().map_or(1, usize::from)).max(1);
+    let runner = Runner::new(&expanded)?;
+    if common.dry_run {
+        return estimate(&expanded.plan, &runner, common, workers, stop);
+    }
+    let shard = common.shard.unwrap_or(Shard::WHOLE);
+    // Shards of one campaign write into one folder at the same time, each its own files.
+    let claimed = if shard == Shard::WHOLE { Some(Claimed::claim(&common.output, stop)?) } else { None };
+    if common.restart {
+        Folder::discard(&common.output)?;
+    }
+    let folder = Folder::open(&common.output, expanded.plan.clone())?;
+    if claimed.is_some() {
+        folder.journal.clear_parts();
+    }
+    if common.retry {
+        retry(&folder, shard)?;
+    }
+    stop.gently();
+    let told = Told::new(common.quiet);
+    let refined = runner.refined();
+    let tell = |count, progress| told.tell(count, progress);
+    let computed = folder.compute(&runner, workers, shard, &refined, stop.flag(), &tell);
+    told.end();
+    computed?;
+    if let Some(signal) = stop.asked() {
+        if !common.quiet {
+            note!("ttb: the runs that were done are kept; the same command computes the rest");
+        }
+        return Err(Error::Interrupted(signal));
+    }
+    if shard != Shard::WHOLE {
+        return outcome::of_shard(&folder, shard, common.quiet);
+    }
+    outcome::finish(&folder, &runner, &expanded, common.quiet, stop)
+}
+
+/// Removes the files of failed runs.
+fn retry(folder: &Folder, shard: Shard) -> Result<(), Error> {
+    let runs = folder.plan.runs();
+    let of_shard: Vec<_> = runs.iter().enumerate().filter(|(i, _)| shard.has(*i)).map(|(_, run)| run.clone()).collect();
+    for (id, _) in Status::of(&of_shard, &folder.journal)?.failed {
+        folder.journal.remove(&id)?;
+    }
+    Ok(())
+}
+
+/// Makes the tables of a folder as it is.
+pub fn merge(path: &Path, stop: &Stop) -> Result<(), Error> {
+    let expanded = stored(&path.join(ttb_campaign::plan::FILE))?;
+    let _claimed = Claimed::claim(path, stop)?;
+    stop.gently();
+    let folder = Folder::read(path)?;
+    outcome::finish(&folder, &Runner::new(&expanded)?, &expanded, false, stop)
+}
