@@ -51,6 +51,16 @@ def test_completions_and_the_manual_come_from_the_definition_of_the_commands(ttb
     assert ".TH ttb" in ttb("man").stdout
 
 
+def test_lists_are_taken_with_commas_and_option_by_option(ttb, tmp_path):
+    """Help prints lists as they can be typed."""
+    assert "4e-3,2e-3" in ttb("accuracy", "--help").stdout
+    for number, lengths in enumerate((["--spans", "24,30"], ["--spans", "24", "--spans", "30"])):
+        folder = tmp_path / str(number)
+        ttb("new", "viaduct", *lengths, folder)
+        spans = json.loads((folder / "scenario.json").read_text())["bridge"]["structure"]["spans"]
+        assert [span["length"] for span in spans] == [24, 30]
+
+
 @pytest.mark.parametrize("arguments", [[], ["frobnicate"], ["run", "--frobnicate"], ["check-scenario"]])
 def test_a_wrong_command_is_bad_input(ttb, arguments):
     """Exit code 2 and how to use it."""

@@ -18,8 +18,8 @@ pub struct Accuracy {
     /// Folder for the results
     #[arg(short, long, default_value = "ttb-accuracy")]
     pub output: PathBuf,
-    /// Steps, multiples of the fine one
-    #[arg(long, value_name = "SECONDS", value_delimiter = ',', value_parser = positive,
+    /// Steps, multiples of the fine one, separated by commas [default: 4e-3,2e-3,1e-3,5e-4,2e-4,1e-4]
+    #[arg(long, value_name = "SECONDS", value_delimiter = ',', value_parser = positive, hide_default_value = true,
         default_values_t = [4e-3, 2e-3, 1e-3, 5e-4, 2e-4, 1e-4])]
     pub steps: Vec<f64>,
     /// Step of the fine run

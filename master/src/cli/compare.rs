@@ -28,10 +28,10 @@ pub struct Compare {
     /// Folder for the results
     #[arg(short, long, default_value = "ttb-compare")]
     pub output: PathBuf,
-    /// Methods, in the order of the table
-    #[arg(long, value_enum, value_delimiter = ',', default_values_t = Compared::ALL)]
+    /// Methods, in the order of the table, separated by commas [default: all, in the order below]
+    #[arg(long, value_enum, value_delimiter = ',', hide_default_value = true, default_values_t = Compared::ALL)]
     pub methods: Vec<Compared>,
-    /// All methods at each of these steps
+    /// All methods at each of these steps, separated by commas
     #[arg(long, value_name = "SECONDS", value_delimiter = ',', value_parser = positive)]
     pub steps: Vec<f64>,
     /// Step of the run that peaks are compared with; none: no such run [default: a tenth of the scenario's]
