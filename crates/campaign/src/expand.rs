@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use serde_json::Value;
 use ttb_assessment::Facts;
 use ttb_scenario::spec::Profile;
-use ttb_scenario::types::CarChoice;
+use ttb_scenario::types::{self, CarChoice, Forces};
 use ttb_scenario::{Checked, Setting, bundled};
 use ttb_trains::ForceTrain;
 
@@ -120,10 +120,10 @@ fn noted<T: Default>(found: Result<T, String>, problems: &mut Vec<String>) -> T 
 
 fn trains(request: &Request, way: Way, checked: &Checked) -> Result<Vec<Train>, String> {
     if request.trains.is_empty() {
-        let name = own_name(&checked.scenario.train.cars);
+        let name = own_name(&checked.scenario.train);
         let load = match way {
             Way::Coupled => Load::Scenario,
-            Way::Modal | Way::OneAxle => axles(&ForceTrain::of_cars(&name, "", &checked.train_track.cars)),
+            Way::Modal | Way::OneAxle => axles(&ForceTrain::of_vehicles(&name, "", &checked.train_track.consist())),
         };
         return Ok(vec![Train { name, max_speed_km_h: None, load }]);
     }
@@ -154,9 +154,9 @@ fn trains(request: &Request, way: Way, checked: &Checked) -> Result<Vec<Train>, 
 }
 
 /// Of the scenario's own train: that of its one bundled train or car.
-fn own_name(cars: &[CarChoice]) -> String {
-    match cars {
-        [CarChoice::Bundled(name)] => name.clone(),
+fn own_name(train: &types::Train) -> String {
+    match (train.cars.as_deref(), &train.forces) {
+        (Some([CarChoice::Bundled(name)]), _) | (_, Some(Forces::Named(name))) => name.clone(),
         _ => "scenario".into(),
     }
 }

@@ -119,7 +119,7 @@ impl<'a> OneAxle<'a> {
             }
         }
         let mut peaks = rows.peaks();
-        peaks.push(Peak::raw("superposition.error", PlaceKind::Whole, Statistic::Value, unit.error));
+        peaks.push(Peak::raw("superposition.error", PlaceKind::Whole, Statistic::Value, greatest_error(unit)));
         Record {
             format: FORMAT,
             run_id: run.id.clone(),
@@ -151,4 +151,8 @@ impl Compute for OneAxle<'_> {
         }
         out
     }
+}
+/// The error of the superposition, of the output where it is greatest.
+fn greatest_error(unit: &Unit) -> f64 {
+    unit.errors.iter().copied().fold(0.0, f64::max)
 }

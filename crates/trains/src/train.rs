@@ -1,7 +1,8 @@
 //! A train of axle loads.
 
 use serde::Serialize;
-use ttb_scenario::travel::wheel_offsets;
+use ttb_scenario::spec::Vehicle;
+use ttb_scenario::travel::vehicle_offsets;
 use ttb_scenario::types::Car;
 
 /// One axle.
@@ -36,22 +37,30 @@ pub struct ForceTrain {
 }
 
 impl ForceTrain {
-    /// The static axle loads of vehicles that stand buffer to buffer.
+    /// The static axle loads of cars that stand buffer to buffer.
     #[must_use]
     pub fn of_cars(name: &str, title: &str, cars: &[Car]) -> Self {
-        let loads = cars.iter().flat_map(|car| [car.axle_load(); 4]);
-        let axles = wheel_offsets(cars).into_iter().zip(loads).map(|(x, load)| Axle { x, load }).collect();
-        // The pitch that most cars share.
-        let count = |length: f64| cars.iter().filter(|car| car.length == length).count();
-        let coach = cars.iter().map(|car| car.length).max_by_key(|length| count(*length));
+        let vehicles: Vec<Vehicle> = cars.iter().cloned().map(Vehicle::Car).collect();
+        let source = cars.first().map(|car| car.source.clone()).unwrap_or_default();
+        Self { source, ..Self::of_vehicles(name, title, &vehicles) }
+    }
+
+    /// The static axle loads of vehicles that stand buffer to buffer.
+    #[must_use]
+    pub fn of_vehicles(name: &str, title: &str, vehicles: &[Vehicle]) -> Self {
+        let loads = vehicles.iter().flat_map(Vehicle::axles).map(|[load, _]| load);
+        let axles = vehicle_offsets(vehicles).into_iter().zip(loads).map(|(x, load)| Axle { x, load }).collect();
+        // The pitch that most vehicles share.
+        let count = |length: f64| vehicles.iter().filter(|vehicle| vehicle.length() == length).count();
+        let coach = vehicles.iter().map(Vehicle::length).max_by_key(|length| count(*length));
         Self {
             name: name.into(),
             title: title.into(),
             max_speed: None,
             axles,
-            buffers: Some(cars.iter().map(|car| car.length).sum()),
-            coach: coach.filter(|_| cars.len() > 1),
-            source: cars.first().map(|car| car.source.clone()).unwrap_or_default(),
+            buffers: Some(vehicles.iter().map(Vehicle::length).sum()),
+            coach: coach.filter(|_| vehicles.len() > 1),
+            source: String::new(),
             verified: "program".into(),
         }
     }

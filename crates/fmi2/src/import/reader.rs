@@ -49,7 +49,9 @@ impl Reading {
                 self.description.units.insert(self.current.clone(), unit(e));
             }
             (_, ["TypeDefinitions", "SimpleType"], "Real") => {
-                e.attribute("unit").and_then(|unit| self.type_units.insert(self.current.clone(), unit));
+                e.attribute("unit")
+                    .filter(|unit| !unit.trim().is_empty())
+                    .and_then(|unit| self.type_units.insert(self.current.clone(), unit));
             }
             (_, ["TypeDefinitions", "SimpleType", "Enumeration"], "Item") => {
                 let item = e.attribute("name").zip(e.number("value"));

@@ -13,7 +13,7 @@ use crate::pieces::Pieces;
 use crate::problem::{Report, Warning};
 use crate::ranges::judge;
 use crate::resolve::Resolved;
-use crate::spec::{Profile, StructureSpec};
+use crate::spec::{Profile, StructureSpec, Vehicle};
 use crate::types::{
     Car, CarChoice, Contact, Damping, FrameChoice, Irregularity, ModelChoice, Spring, Structure, Support, TrackChoice,
     TrackType,
@@ -34,7 +34,7 @@ pub(super) fn check(pieces: &Pieces, resolved: &Resolved, report: &mut Report) {
         all.track(track);
     }
     if let (Some(track), Some(cars)) = (&resolved.track, &resolved.cars) {
-        let load = cars.iter().map(Car::axle_load).fold(0.0, f64::max);
+        let load = cars.iter().flat_map(Vehicle::axles).map(|[load, _]| load).fold(0.0, f64::max);
         all.positive("track.deflection", "$.track.type", deflection(track, load));
     }
     let speed = resolved.speed.iter().flatten().map(|[_, v]| *v).fold(0.0, f64::max);
