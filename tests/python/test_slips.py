@@ -84,8 +84,8 @@ def test_what_cannot_be_meant_is_a_problem(ttb, examples, tmp_path, case):
 
 
 def test_results_that_cannot_be_believed_are_warnings_in_the_summary(ttb, examples, tmp_path):
-    """A rail whose second moment of area was given in cm⁴: wheel forces of many static loads."""
-    changes = {"track.type": TRACK | {"rail": {"bending_stiffness": 3055, "mass": 121.28}}}
+    """A rail of a four-hundredth of the stiffness: wheel forces of 83 static loads."""
+    changes = {"track.type": TRACK | {"rail": {"bending_stiffness": 3e4, "mass": 121.28}}}
     done = ttb("run", changed(examples / "r1.json", tmp_path / "s.json", changes), "-o", tmp_path / "out", "-q")
     warnings = json.loads((tmp_path / "out" / "summary.json").read_text())["warnings"]
     told = [warning for warning in warnings if "cannot be believed" in warning]
