@@ -34,7 +34,7 @@ fn both(spec: &BridgeSpec, highest: f64, name: &str, km_h: f64, h: f64) -> [(Vec
 fn compare(ways: &[(Vec<Output>, Response); 2], quantity: Quantity, place: &str, tolerance: f64) {
     let [modal, axle] = [0, 1].map(|i| {
         let (outputs, response) = &ways[i];
-        response.extremes[output(outputs, quantity, place)].largest().0
+        response.extremes[output(outputs, quantity, place)].largest().0.abs()
     });
     close(axle, modal, tolerance, &format!("{quantity} at {place}"));
 }
@@ -56,7 +56,7 @@ fn a_frame_in_all_degrees_of_freedom_answers_as_its_modes() {
     let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples/strutted-frame.json");
     let spec = ttb_scenario::load(&file).unwrap().bridge;
     let ways = both(&spec, 200.0, "ice2", 180.0, 5e-4);
-    for place in ["24", "7"] {
+    for place in ["24", "9.6"] {
         compare(&ways, Quantity::Displacement, place, 2e-3);
         compare(&ways, Quantity::Acceleration, place, 1e-2);
     }
