@@ -100,11 +100,7 @@ impl Watch {
                     let car = of(
                         &mut histories.cars,
                         |car| car.number == *number,
-                        || CarHistory {
-                            number: *number,
-                            half_base: base,
-                            ..CarHistory::default()
-                        },
+                        || CarHistory { number: *number, half_base: base, ..CarHistory::default() },
                     );
                     if column.quantity == Quantity::Acceleration {
                         car.acceleration = values;
