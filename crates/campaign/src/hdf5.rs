@@ -103,6 +103,9 @@ impl Column {
     }
 }
 
+/// Abscissae of a set of points, and the arrays of their least and greatest values.
+type OfPoints = (Vec<f64>, [Column; 2]);
+
 struct Writer {
     file: H5File,
     runs: H5Group,
@@ -110,7 +113,7 @@ struct Writer {
     numbers: Vec<Column>,
     peaks: BTreeMap<String, Column>,
     /// By key; every set of points has its two arrays.
-    envelopes: BTreeMap<String, Vec<(Vec<f64>, [Column; 2])>>,
+    envelopes: BTreeMap<String, Vec<OfPoints>>,
     groups: BTreeMap<String, H5Group>,
     /// Runs so far.
     count: usize,

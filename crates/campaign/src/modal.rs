@@ -19,6 +19,9 @@ use crate::record::{Envelope, FORMAT, Record};
 /// Runs of a batch: so many that a train's load on the modes is made seldom.
 const BATCH: usize = 64;
 
+/// A bridge in its modes, or why there is none.
+type Made = Result<Arc<ModalBridge>, String>;
+
 /// What modal runs share.
 pub struct Modal<'a> {
     plan: &'a Plan,
@@ -26,7 +29,7 @@ pub struct Modal<'a> {
     /// Behind which acceleration is looked at, beside raw.
     filters: Vec<Filter>,
     /// By variant.
-    bridges: Mutex<Vec<Option<Result<Arc<ModalBridge>, String>>>>,
+    bridges: Mutex<Vec<Option<Made>>>,
 }
 
 impl<'a> Modal<'a> {

@@ -33,6 +33,9 @@ struct Known {
     free: f64,
 }
 
+/// What is known of a bridge, or why it cannot be made.
+type Made = Result<Arc<Known>, String>;
+
 /// What runs by one axle share.
 pub struct OneAxle<'a> {
     plan: &'a Plan,
@@ -41,7 +44,7 @@ pub struct OneAxle<'a> {
     filters: Vec<Filter>,
     /// First to last axle of the longest train, m.
     longest: f64,
-    bridges: Mutex<Vec<Option<Result<Arc<Known>, String>>>>,
+    bridges: Mutex<Vec<Option<Made>>>,
 }
 
 impl<'a> OneAxle<'a> {

@@ -37,7 +37,7 @@ pub struct Record {
 /// Least and greatest value of a quantity at every point of the deck.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Envelope {
-    /// What: one of [`ttb_assessment::quantity`].
+    /// What: one of [`ttb_assessment::peak::quantity`].
     pub quantity: Cow<'static, str>,
     /// Label of its filter, `raw` without.
     pub filter: Cow<'static, str>,

@@ -195,7 +195,7 @@ impl Table {
     }
 
     fn finish(self) -> Result<(), Error> {
-        let inner = self.rows.into_inner().map_err(|error| Error::io(&self.path)(error.into_error().into()));
+        let inner = self.rows.into_inner().map_err(|error| Error::io(&self.path)(error.into_error()));
         inner?.flush().map_err(Error::io(&self.path))?;
         fs::rename(&self.part, &self.path).map_err(Error::io(&self.path))
     }

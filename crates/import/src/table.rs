@@ -113,7 +113,7 @@ impl Table {
 
     /// Reads a line into `fields`.
     fn record(&mut self, report: &mut Report) -> Result<bool, Stop> {
-        while let Some(record) = self.records.next() {
+        for record in self.records.by_ref() {
             let record = record.map_err(|e| report.fatal(None, "the table cannot be read", e))?;
             self.line = record.position().map_or(0, csv::Position::line) + self.dialect.lines;
             let text = |field: &[u8]| String::from_utf8_lossy(field).trim().to_owned();

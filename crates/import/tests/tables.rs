@@ -326,7 +326,7 @@ fn every_table_is_read_in_every_dialect() {
             texts.insert(file, change(&good()[file].replace("tip, down", "tip")));
         }
         if name == "trailing separators" {
-            texts.insert("dofs.csv", good()["dofs.csv"].replace("z\n1", "z\n1").replace(",0\n", ",0,,\n"));
+            texts.insert("dofs.csv", good()["dofs.csv"].replace(",0\n", ",0,,\n"));
             texts.insert("supports.csv", good()["supports.csv"].replace("0.5\n", "0.5,\n"));
             texts.insert("points.csv", good()["points.csv"].replace("tip, down", "tip"));
         }

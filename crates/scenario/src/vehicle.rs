@@ -225,7 +225,7 @@ fn held_by_wheels(stiffness: &[f64], n: usize, held: usize, weight: &[f64]) -> R
             let left = stiffness[i * n + j] - sum;
             if i == j {
                 // A NaN is not held either.
-                if !(left > SINGULAR * stiffness[i * n + i]) {
+                if left.is_nan() || left <= SINGULAR * stiffness[i * n + i] {
                     return Err(i);
                 }
                 l[i * held + i] = left.sqrt();

@@ -138,12 +138,11 @@ impl Loader<'_> {
         for binding in bindings {
             let place = binding.place.clone();
             if let Values::File(source) = &binding.values {
-                let set = self.open(source, base, component, &place, report, |bytes, report| read_set(bytes, report));
+                let set = self.open(source, base, component, &place, report, read_set);
                 binding.values = set.map_or_else(Values::default, Values::Inline);
             }
             if let Some(Mapping::File(source)) = &binding.mapping {
-                let entries =
-                    self.open(source, base, component, &place, report, |bytes, report| read_mapping(bytes, report));
+                let entries = self.open(source, base, component, &place, report, read_mapping);
                 binding.mapping = Some(Mapping::Inline(entries.unwrap_or_default()));
             }
         }

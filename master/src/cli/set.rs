@@ -8,7 +8,7 @@ use ttb_scenario::Setting;
 pub struct Set {
     /// Another value for a key of the scenario, such as train.speed.km_h=280; several times for several keys
     ///
-    /// KEY is a path into the file, with numbers in brackets for entries of lists: bridge.structure.spans[0].mass=12e3.
+    /// KEY is a path into the file, with numbers in brackets for entries of lists: `bridge.structure.spans[0].mass=12e3`.
     /// VALUE is JSON; what is no JSON is a text: track.type=slab. Units are those of the key. A key that is not in the file
     /// is added; one that no scenario has is refused.
     #[arg(long, value_name = "KEY=VALUE")]

@@ -181,7 +181,7 @@ fn add(
             continue;
         };
         let bundled = bundled::text(name).is_some();
-        if !bundled && !entry.get("source").is_some_and(|source| source.as_str().is_some_and(|s| !s.is_empty())) {
+        if !bundled && entry.get("source").and_then(|source| source.as_str()).is_none_or(str::is_empty) {
             let rule = "must say in `source` where its numbers come from";
             problems.push(problem(name, &path, rule, format!("`{id}`")));
         }

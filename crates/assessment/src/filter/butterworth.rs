@@ -104,8 +104,8 @@ impl Butterworth {
         extended.extend((1..=edge).rev().map(|i| 2.0 * signal[0] - signal[i]));
         extended.extend_from_slice(signal);
         extended.extend((1..=edge).map(|i| 2.0 * signal[n - 1] - signal[n - 1 - i]));
-        self.cascade.from_steady(extended.iter_mut());
-        self.cascade.from_steady(extended.iter_mut().rev());
+        self.cascade.run_from_steady(extended.iter_mut());
+        self.cascade.run_from_steady(extended.iter_mut().rev());
         signal.copy_from_slice(&extended[edge..edge + n]);
         Ok(())
     }

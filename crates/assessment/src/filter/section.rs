@@ -74,7 +74,7 @@ impl Cascade {
     }
 
     /// Over the values in place, from the steady state that belongs to the first value.
-    pub(crate) fn from_steady<'a>(&self, signal: impl Iterator<Item = &'a mut f64>) {
+    pub(crate) fn run_from_steady<'a>(&self, signal: impl Iterator<Item = &'a mut f64>) {
         self.run(signal, |section, x| {
             let (g, [_, b1, b2], [a1, a2]) = (section.constant_gain(), section.b, section.a);
             let z1 = b2 - a2 * g;

@@ -66,7 +66,7 @@ fn every(signal: &[f64], way: f64) -> Vec<f64> {
 fn contact(axle: &AxleHistory, histories: &Histories, record: Record, way: f64, out: &mut Reduced) {
     let all = losses(&axle.force);
     let on_bridge = |loss: &&Loss| {
-        histories.bridge.zip(axle.position.get(loss.first)).is_some_and(|([a, b], x)| (a..=b).contains(&x))
+        histories.bridge.zip(axle.position.get(loss.first)).is_some_and(|([a, b], x)| (a..=b).contains(x))
     };
     let rows = |quantity, of: &[Loss], out: &mut Reduced| {
         let place = place(quantity, axle.number, "s");

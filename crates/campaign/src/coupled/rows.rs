@@ -127,6 +127,9 @@ pub fn peaks(histories: &Histories, criteria: &Criteria, facts: &Facts) -> Vec<P
     worst.into_values().chain(own).collect()
 }
 
+/// One of the histories of a point.
+type OfPoint = fn(&PointHistory) -> &[f64];
+
 /// Extremes along the deck: displacement, moment and acceleration raw, and acceleration behind the filter that judges it.
 pub fn envelopes(histories: &Histories, judged: &Filter) -> Vec<Envelope> {
     let mut points: Vec<&PointHistory> = histories.points.iter().filter(|point| point.x.is_some()).collect();
@@ -136,7 +139,7 @@ pub fn envelopes(histories: &Histories, judged: &Filter) -> Vec<Envelope> {
         [first, .., last] => (histories.time.len() - 1) as f64 / (last - first),
         _ => return Vec::new(),
     };
-    let raw: [(_, _, fn(&PointHistory) -> &[f64]); 3] = [
+    let raw: [(_, _, OfPoint); 3] = [
         (DECK_DISPLACEMENT, "m", |point| &point.displacement),
         (DECK_MOMENT, "N.m", |point| &point.moment),
         (DECK_ACCELERATION, "m/s2", |point| &point.acceleration),

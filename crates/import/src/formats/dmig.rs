@@ -26,7 +26,7 @@ pub(super) fn is_entry(text: &[u8]) -> bool {
 }
 
 /// Grid point and component at a line's beginning, and what follows: value or nothing.
-fn label<'a>(text: &'a [u8]) -> Option<(Dof, &'a [u8])> {
+fn label(text: &[u8]) -> Option<(Dof, &[u8])> {
     let mut fields = Fields::new(text);
     let node = u32::try_from(fields.whole()?).ok().filter(|node| (1..INTERNAL).contains(node))?;
     let (component, rest) = fields.remainder().split_first()?;

@@ -186,7 +186,7 @@ fn range(values: impl Iterator<Item = f64>) -> Option<[f64; 2]> {
     let [low, high] = finite.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], v| [low.min(v), high.max(v)]);
     match high - low {
         wide if wide > 0.0 => Some([low, high]),
-        wide if wide == 0.0 => Some([low - 0.5 * low.abs().max(1.0), high + 0.5 * high.abs().max(1.0)]),
+        0.0 => Some([low - 0.5 * low.abs().max(1.0), high + 0.5 * high.abs().max(1.0)]),
         _ => None,
     }
 }

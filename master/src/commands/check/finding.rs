@@ -30,12 +30,20 @@ pub struct Finding {
     pub at: String,
     /// What was seen.
     pub evidence: String,
+    /// What stands behind it; in a box, so that results with a finding as their error stay small.
+    #[serde(flatten)]
+    pub(super) behind: Box<Behind>,
+}
+
+/// The rule's clause and how to see the finding again; filled in at the end.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub(super) struct Behind {
     /// The clause of the standard behind the rule.
     #[serde(default)]
-    pub clause: String,
+    clause: String,
     /// The command that makes the same test alone.
     #[serde(default)]
-    pub repeat: String,
+    repeat: String,
 }
 
 impl Finding {
@@ -43,7 +51,7 @@ impl Finding {
     pub fn error(name: &str, what: impl Into<String>) -> Self {
         let none = String::new;
         let (name, what) = (name.into(), what.into());
-        Self { severity: Severity::Error, name, what, at: none(), evidence: none(), clause: none(), repeat: none() }
+        Self { severity: Severity::Error, name, what, at: none(), evidence: none(), behind: Box::default() }
     }
 
     /// A warning.
@@ -72,10 +80,16 @@ impl Finding {
         Self { severity, ..self }
     }
 
+    /// With a clause of its own in place of the rule's.
+    pub fn with_clause(self, clause: String) -> Self {
+        Self { behind: Box::new(Behind { clause, ..*self.behind }), ..self }
+    }
+
     /// With its clause, and the command that repeats it.
     pub fn complete(self, repeat: &str) -> Self {
-        let clause = if self.clause.is_empty() { clause(&self.name) } else { self.clause };
-        Self { clause, repeat: repeat.into(), ..self }
+        let known = &self.behind.clause;
+        let clause = if known.is_empty() { clause(&self.name) } else { known.clone() };
+        Self { behind: Box::new(Behind { clause, repeat: repeat.into() }), ..self }
     }
 
     /// Whether two findings say the same: one fault shows in many tests.
@@ -99,8 +113,9 @@ impl std::fmt::Display for Finding {
         if !self.evidence.is_empty() {
             write!(f, "; seen: {}", one_line(&self.evidence))?;
         }
-        if !self.clause.is_empty() {
-            write!(f, " [{}; {}]", self.clause, one_line(&self.repeat))?;
+        let Behind { clause, repeat } = &*self.behind;
+        if !clause.is_empty() {
+            write!(f, " [{clause}; {}]", one_line(repeat))?;
         }
         Ok(())
     }

@@ -62,7 +62,7 @@ pub fn run(check: &str, folder: &Path, patience: Duration, preload: &[OsString])
         let what = if second { format!("a second instance in the same process: {what}") } else { what.clone() };
         let finding = Finding::error(name, what).at(stage).seen(first_line(&complained));
         let clause = if second { "FMI 2.0, 2.1.5".into() } else { String::new() };
-        findings.push(Finding { clause, ..finding });
+        findings.push(finding.with_clause(clause));
     }
     if left > 0 {
         let what = "processes that it has started still run after its end";

@@ -167,10 +167,10 @@ fn system(path: &Path, arguments: &Interoperability, limit: Duration) -> Result<
 /// The lines of the error that ended a command: from the last line on that this program itself has begun. What comes before
 /// are warnings, and what FMUs say.
 fn refusal(complained: &str) -> std::vec::IntoIter<&str> {
-    let lines: Vec<&str> = complained.lines().collect();
+    let mut lines: Vec<&str> = complained.lines().collect();
     let own = |line: &&str| line.starts_with("ttb: ") && !line.starts_with("ttb: warning");
     let begin = lines.iter().rposition(own).unwrap_or(lines.len());
-    lines[begin..].to_vec().into_iter()
+    lines.split_off(begin).into_iter()
 }
 
 /// A problem without its file and its place.
