@@ -101,14 +101,14 @@ pub fn connect(
     let maps: Vec<&Map> = bridges.iter().map(|given| given.map.unwrap_or(&ours)).collect();
     let Fmus { train_track: of_track, bridge: of_bridge } = &checked.scenario.fmus;
     let of_maps = maps.iter().map(|map| &map.train_track_parameters);
-    let of_track = together(&of_track.parameters, of_maps);
+    let of_track = parameters::together(&of_track.parameters, of_maps);
     let mut problems = Vec::new();
     let train_track = told(instantiate(&train_track, "TrainTrack", end, &of_track), &mut problems)?;
     let mut warnings = checked.warnings.clone();
     let mut offered = Vec::new();
     for (k, (given, map)) in bridges.iter().zip(&maps).enumerate() {
         let name = if bridges.len() == 1 { "Bridge".to_string() } else { format!("Bridge{}", k + 1) };
-        let parameters = together(&of_bridge.parameters, [&map.parameters]);
+        let parameters = parameters::together(&of_bridge.parameters, [&map.parameters]);
         let bridge = Bridge::open(given.path, &name, isolated.bridge.as_ref(), end, &parameters);
         let bridge = told(bridge, &mut problems)?;
         offered.extend(bridge.map(|bridge| Bridge { trusted: trusted && map.roll_back, ..bridge }));
@@ -195,7 +195,7 @@ pub fn couple(
             )));
         }
         if settings.hold_forces || settings.mean_forces {
-            takes_means(&mut instance)?;
+            parameters::takes_means(&mut instance)?;
         }
         let mut side = subsystem(instance, &assigned.forces_in, &assigned.motions_out)?;
         if !rolls_back {
@@ -262,23 +262,6 @@ fn means(train_track: &FmuInstance, forces: &mut [String]) -> Result<(), Error> 
     Ok(())
 }
 
-/// Refuses an FMU whose parameter `input_meaning` says that a held force is no mean, where means are sent.
-fn takes_means(bridge: &mut FmuInstance) -> Result<(), Error> {
-    const NAME: &str = "input_meaning";
-    let description = bridge.description();
-    let variable = description.variable(NAME);
-    let items = variable.and_then(|variable| description.enumerations.get(variable.declared_type.as_ref()?)).cloned();
-    let Some(items) = items else { return Ok(()) };
-    let value = bridge.get_number(NAME)?;
-    match items.iter().find(|(_, number)| f64::from(*number) == value) {
-        Some((item, _)) if item != "mean" => Err(Error::Input(format!(
-            "{}: its parameter {NAME} is {item}, but forces are sent as held means here (coupling.send, time.substeps)",
-            bridge.name()
-        ))),
-        _ => Ok(()),
-    }
-}
-
 /// What was made; nothing if its input was refused, which is noted.
 fn told<T>(made: Result<T, Error>, problems: &mut Vec<String>) -> Result<Option<T>, Error> {
     match made {
@@ -288,16 +271,6 @@ fn told<T>(made: Result<T, Error>, problems: &mut Vec<String>) -> Result<Option<
         }
         made => made.map(Some),
     }
-}
-
-/// Parameters from several places; a later one comes after those before.
-fn together<'a>(
-    first: &BTreeMap<String, Value>,
-    others: impl IntoIterator<Item = &'a BTreeMap<String, Value>>,
-) -> BTreeMap<String, Value> {
-    let mut all = first.clone();
-    all.extend(others.into_iter().flatten().map(|(name, value)| (name.clone(), value.clone())));
-    all
 }
 
 /// One side, by its coupled variables.

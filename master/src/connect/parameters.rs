@@ -71,3 +71,30 @@ fn misfit(variable: &ScalarVariable, value: &Value) -> Option<&'static str> {
         (VariableType::String, _) => Some("a String"),
     }
 }
+
+/// Refuses an FMU whose parameter `input_meaning` says that a held force is no mean, where means are sent.
+pub fn takes_means(bridge: &mut FmuInstance) -> Result<(), Error> {
+    const NAME: &str = "input_meaning";
+    let description = bridge.description();
+    let variable = description.variable(NAME);
+    let items = variable.and_then(|variable| description.enumerations.get(variable.declared_type.as_ref()?)).cloned();
+    let Some(items) = items else { return Ok(()) };
+    let value = bridge.get_number(NAME)?;
+    match items.iter().find(|(_, number)| f64::from(*number) == value) {
+        Some((item, _)) if item != "mean" => Err(Error::Input(format!(
+            "{}: its parameter {NAME} is {item}, but forces are sent as held means here (coupling.send, time.substeps)",
+            bridge.name()
+        ))),
+        _ => Ok(()),
+    }
+}
+
+/// Parameters from several places; a later one comes after those before.
+pub fn together<'a>(
+    first: &BTreeMap<String, Value>,
+    others: impl IntoIterator<Item = &'a BTreeMap<String, Value>>,
+) -> BTreeMap<String, Value> {
+    let mut all = first.clone();
+    all.extend(others.into_iter().flatten().map(|(name, value)| (name.clone(), value.clone())));
+    all
+}
