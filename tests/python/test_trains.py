@@ -55,3 +55,13 @@ def test_signature_and_static_values_of_a_span(ttb, tmp_path):
     assert math.isclose(found["deck.displacement"], 18.7155e-3, rel_tol=1e-4)
     doubled = ttb("static", str(path), "--load", "lm71", "--alpha", "2").stdout
     assert f"{2 * 18.7155:.2f}" in doubled
+
+
+def test_limits_and_criteria_are_listed(ttb):
+    """Names, one file as it is, one criterion with its clause, and a slip of the pen."""
+    assert "en1990-2002" in ttb("list", "limits").stdout
+    file = json.loads(ttb("list", "limits", "en1990-2002").stdout)
+    assert any(criterion["id"] == "deck-acceleration" for criterion in file["criteria"])
+    [one, *_] = json.loads(ttb("list", "criteria", "deck-acceleration").stdout)
+    assert one["criterion"]["quantity"] == "deck.acceleration" and one["criterion"]["clause"]
+    assert "deck-acceleration" in ttb("list", "criteria", "deck-aceleration", expect=2).stderr

@@ -8,6 +8,7 @@ Examples:
   ttb list trains hslm-a3 --axles        its axles as CSV (x in m, load in kN): a file to start from
   ttb list trains en15528-d2x6 --json    six wagons, with source
   ttb list cars ice3-motor               the data of a car, as a scenario may have them
+  ttb list criteria deck-acceleration    what is judged, behind which filter, by which clause
 
 A field `verified` says how sure data are: `secondary` stands for a standard whose text was not at hand.";
 
@@ -26,6 +27,10 @@ pub enum Listed {
     Bridges,
     /// Static load models
     LoadModels,
+    /// Files of limits, for --limits; NAME prints one: a file to start from
+    Limits,
+    /// Criteria of all of them: quantity, limit, filter, clause
+    Criteria,
 }
 
 /// Arguments of `ttb list`.

@@ -4,6 +4,7 @@ use ttb_scenario::bundled::{Kind, files};
 use ttb_scenario::nearest;
 use ttb_trains::{ForceTrain, find, load_model, load_model_names, names::TRAINS};
 
+use super::limits;
 use crate::cli::{List, Listed};
 use crate::error::Error;
 
@@ -16,6 +17,8 @@ pub fn list(arguments: &List) -> Result<(), Error> {
         Listed::Tracks => data(Kind::Tracks, "track", arguments),
         Listed::Spectra => data(Kind::Spectra, "spectrum", arguments),
         Listed::Bridges => data(Kind::Bridges, "bridge", arguments),
+        Listed::Limits => limits::files(arguments),
+        Listed::Criteria => limits::criteria(arguments),
     }
 }
 
@@ -113,13 +116,13 @@ fn data(kind: Kind, what: &str, arguments: &List) -> Result<(), Error> {
     Ok(())
 }
 
-fn unknown<'a>(what: &str, name: &str, known: impl Iterator<Item = &'a str> + Clone) -> Error {
+pub(super) fn unknown<'a>(what: &str, name: &str, known: impl Iterator<Item = &'a str> + Clone) -> Error {
     let meant = nearest(name, known.clone()).map(|name| format!(" (did you mean `{name}`?)")).unwrap_or_default();
     let known = known.collect::<Vec<_>>().join(", ");
     Error::Input(format!("there is no {what} named `{name}`{meant}; there are: {known}"))
 }
 
-fn json(value: &impl serde::Serialize) -> Result<(), Error> {
+pub(super) fn json(value: &impl serde::Serialize) -> Result<(), Error> {
     say!("{}", crate::files::json(std::path::Path::new("standard output"), value)?);
     Ok(())
 }

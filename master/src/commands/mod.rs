@@ -14,6 +14,7 @@ pub mod inspect;
 pub mod inspect_bridge;
 pub mod interoperability;
 pub mod keeper;
+mod limits;
 pub mod list;
 pub mod new;
 mod output;
