@@ -52,7 +52,7 @@ fn faults_against_the_schema_are_all_found() {
             case(
                 "a decimal comma between commas",
                 &[("/output", r#"{ "csv": { "decimal": "comma" } }"#)],
-                &[("$.output.csv.separator", "a decimal comma needs another separator")],
+                &[("$.output.csv.separator", "a decimal comma needs another separator: \"semicolon\" or \"tab\"")],
             ),
             case("fraction for a count", &[("/track/bays", "400.5")], &[("$.track.bays", "must be a whole number")]),
             case("negative count", &[("/track/bays", "-400")], &[("$.track.bays", "must be at least 2")]),
