@@ -118,7 +118,6 @@ fn damping_and_modes() {
 fn parameters_name_their_rule() {
     for (name, value, rule) in [
         ("damping_ratio", 1.5, "between 0 and 1"),
-        ("input_meaning", 3.0, "1 (mean) or 2 (end)"),
         ("stiffness_factor", 0.0, "positive"),
         ("mass_factor", -1.0, "positive"),
         ("step_size", 0.0, "positive"),
@@ -134,7 +133,10 @@ fn parameters_name_their_rule() {
         set(&mut instance, name, 0.5);
         instance.enter_initialization(0.0).unwrap();
     }
+    // An enumeration takes its items only, at once.
     let mut undamped = Instance::new(Bridge::new(simple()).unwrap());
+    let meaning = common::find(&undamped, "input_meaning");
+    assert!(undamped.set(&[meaning], &[3.0]).unwrap_err().0.contains("input_meaning"));
     set(&mut undamped, "damping_ratio", 0.02);
     assert!(undamped.enter_initialization(0.0).unwrap_err().0.contains("damping_ratio"));
 }

@@ -200,7 +200,7 @@ mod tests {
             ("{ \"force\": }", "$.force: not JSON: expected a value: found `}` in line 1, column 12"),
             ("{ \"force\": { \"nmae\": \"f[{i}]\" } }", "$.force.nmae: unknown key: `nmae` (did you mean `name`?)"),
             ("{ \"stations\": { \"from\": 0 } }", "$.stations.spacing: missing key: `spacing`"),
-            ("{ \"stations\": \"0, 1\" }", "$.stations: must be a list or an object or null: \"0, 1\""),
+            ("{ \"stations\": \"0, 1\" }", "$.stations: must be a list or an object: \"0, 1\""),
             (
                 "{ \"interpolation\": \"qubic\" }",
                 "$.interpolation: must be one of linear, cubic: \"qubic\" (did you mean `cubic`?)",
