@@ -148,4 +148,4 @@ def test_forces_by_name_pass_over_a_bridge(ttb, tmp_path):
     assert force["min"]["value"] == force["max"]["value"] == 180e3
     assert summary["peaks"]["point[mid].displacement"]["max"]["value"] > 1e-3
     resolved = json.loads((tmp_path / "scenario.resolved.json").read_text())
-    assert len(resolved["train"]["forces"]) == 50
+    assert len(resolved["train"]["forces"]) == 46
