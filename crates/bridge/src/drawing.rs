@@ -19,31 +19,12 @@ use ttb_sparse::{Factor, Layout, Pencil};
 use crate::assembled::Assembled;
 use crate::deck::Row;
 use crate::mesh::Mesh;
+use crate::outline::{Outline, Weight};
 use crate::rows::Rows;
 use crate::{beams, frame, imported, plane, space};
 
 /// A displacement along x, y and z, m.
 pub type Displacement = [f64; 3];
-
-/// Points, cells, and the rows that move the points.
-pub struct Outline {
-    /// Where the points are, m.
-    pub points: Vec<[f64; 3]>,
-    /// Points of every cell by position: one is a node, two a line, three or four a plate.
-    pub cells: Vec<Vec<u32>>,
-    /// Displacements along x, y and z of all points, as weights on degrees of freedom.
-    pub rows: Vec<[Row; 3]>,
-    /// The own weight, N.
-    pub weight: Weight,
-}
-
-/// The own weight of a bridge.
-pub enum Weight {
-    /// On every degree of freedom.
-    Loads(Vec<f64>),
-    /// The mass is known to the matrix M alone; down is this axis (0, 1, 2 for x, y, z) with this sign.
-    Down(usize, f64),
-}
 
 /// A bridge, ready to be drawn.
 pub struct Drawing {

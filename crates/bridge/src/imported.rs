@@ -7,7 +7,7 @@ use ttb_import::{Dofs, Files, Imported, Row};
 use ttb_sparse::Assembly;
 
 use crate::assembled::{Assembled, Monitor, Names};
-use crate::drawing::{Outline, Weight};
+use crate::outline::{Outline, Weight};
 
 /// Stations closer than this to a support of the file are that support, m.
 const NEAR: f64 = 1e-6;

@@ -18,6 +18,7 @@ pub mod lockstep;
 pub mod march;
 pub mod mesh;
 pub mod model;
+pub mod outline;
 pub mod plane;
 pub mod prepared;
 pub mod reduced;

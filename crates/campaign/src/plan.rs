@@ -217,7 +217,12 @@ impl Plan {
 
     /// A run with its id.
     pub fn run(&self, train: usize, variant: usize, rail: Rail, speed_km_h: Option<f64>, refined: bool) -> Run {
-        let id = identity::of(self, &self.trains[train].load, &self.variants[variant], rail, speed_km_h);
+        let (load, of) = (&self.trains[train].load, &self.variants[variant]);
+        let factors = [of.mass_factor, of.stiffness_factor].map(f64::to_bits);
+        let id = identity::of(&(
+            (&self.version, &self.scenario_sha256, self.way, self.forces),
+            (load, factors, &of.set, rail, speed_km_h.map(f64::to_bits)),
+        ));
         Run { id, train, variant, rail, speed_km_h, refined }
     }
 

@@ -13,7 +13,8 @@ use serde_json::Value;
 use sha2::{Digest, Sha256};
 
 use crate::pieces::Pieces;
-use crate::place::{Chosen, place};
+use crate::place::place;
+use crate::placement::{Chosen, fill};
 use crate::problem::{MUST_FIT, Problems, Report, Warning};
 use crate::settings::Setting;
 use crate::spec::{BridgeSpec, StructureSpec, TrainTrackSpec, Vehicle};
@@ -154,7 +155,7 @@ pub fn from_str_using(
         }
     };
     let chosen = std::mem::take(&mut placed.chosen);
-    resolve::fill(&mut scenario, placed);
+    fill(&mut scenario, placed);
     let Some((train_track, bridge)) = resolve::specs(&scenario, resolved) else {
         report.problem("$", MUST_FIT, "a name stands for nothing");
         return Err(report.into_problems());

@@ -20,6 +20,7 @@ use serde_json::{Value, json};
 use crate::deck::Deck;
 use crate::limits::{LONGEST_PRE_ROLL, MOST_BAYS};
 use crate::pieces::Pieces;
+use crate::placement::Placement;
 use crate::problem::Report;
 use crate::resolve::Resolved;
 use crate::spans::first_frequency;
@@ -36,38 +37,6 @@ pub(crate) const BEYOND: f64 = 15.0;
 /// Periods and seconds of a free vibration.
 const PERIODS: [f64; 2] = [2.0, 20.0];
 const LONGEST: f64 = 10.0;
-
-/// A key of the scenario that was left out, and what was chosen for it.
-#[derive(Clone, Debug, PartialEq, serde::Serialize, schemars::JsonSchema)]
-pub struct Chosen {
-    /// Its path, such as `train.front_wheel`.
-    pub key: String,
-    /// What was chosen.
-    pub value: Value,
-    /// Unit of a number; empty if it has none.
-    pub unit: &'static str,
-    /// Why.
-    pub why: String,
-}
-
-/// Where everything is; `None` where the scenario does not tell enough, which has been reported.
-#[derive(Default)]
-pub(crate) struct Placement {
-    pub front_wheel: Option<f64>,
-    pub pre_roll: Option<f64>,
-    pub from: Option<f64>,
-    pub bays: Option<usize>,
-    pub end: Option<f64>,
-    pub free_vibration: Option<f64>,
-    pub points: Option<Vec<Point>>,
-    pub chosen: Vec<Chosen>,
-}
-
-impl Placement {
-    fn chose(&mut self, key: &str, value: impl Into<Value>, unit: &'static str, why: impl Into<String>) {
-        self.chosen.push(Chosen { key: key.into(), value: value.into(), unit, why: why.into() });
-    }
-}
 
 /// Chooses what is left out; what cannot be chosen is reported.
 pub(crate) fn place(pieces: &Pieces, resolved: &Resolved, report: &mut Report) -> Placement {

@@ -7,7 +7,6 @@ use crate::deck::Deck;
 use crate::measured;
 use crate::model;
 use crate::pieces::Pieces;
-use crate::place::Placement;
 use crate::problem::Report;
 use crate::spans;
 use crate::spec::{BridgeSpec, Profile, StructureSpec, TrainTrackSpec, Vehicle};
@@ -116,15 +115,6 @@ fn scale(irregularity: &Irregularity) -> f64 {
         | Irregularity::Spectrum { scale, .. }
         | Irregularity::Measured { scale, .. } => *scale,
     }
-}
-
-/// Writes what was chosen into the scenario, as if it had stood there.
-pub(crate) fn fill(scenario: &mut Scenario, placed: Placement) {
-    scenario.train.front_wheel = placed.front_wheel;
-    scenario.train.pre_roll = placed.pre_roll;
-    (scenario.track.from, scenario.track.bays) = (placed.from, placed.bays);
-    (scenario.time.end, scenario.time.free_vibration) = (placed.end, placed.free_vibration);
-    scenario.bridge.points = scenario.bridge.points.take().or(placed.points);
 }
 
 /// The two subsystems' specs of a scenario whose names are all known and that leaves no place out.

@@ -7,7 +7,7 @@ use std::collections::{HashMap, HashSet};
 
 use crate::parameters::{self, Binding, Enumeration, Mapping, NamedUnit, Parameter, ParameterSet, Value, Values};
 use crate::problem::Report;
-use crate::read::{enumerations, units, version};
+use crate::shared::{enumerations, units, version};
 use crate::transform::{boolean, real, transformation};
 use crate::tree::{Element, tree};
 use crate::types::{Source, Unit};

@@ -3,40 +3,11 @@
 //! A wire goes from an output of one component to an input of another, over as many connectors of systems and signals of
 //! dictionaries as there are.
 
-use crate::graph::{Graph, Hop, Node};
+use crate::flat::{Flat, Wire};
+use crate::graph::{Graph, Node};
 use crate::problem::Report;
 use crate::types::{Component, Structure};
-use crate::values::{Bound, Offer, bind};
-
-/// All components of a structure, and how they are connected.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Flat {
-    /// The components; a name is that of all systems around it and its own, joined by dots.
-    pub components: Vec<Component>,
-    /// From outputs to inputs.
-    pub wires: Vec<Wire>,
-    /// Inputs that are connected to a connector of a system which nothing drives: component, input, connector.
-    pub undriven: Vec<(usize, String, String)>,
-    /// Values of each component in the order of the components; the last for a variable holds.
-    pub values: Vec<Vec<Bound>>,
-    /// All values that bindings offer.
-    pub offers: Vec<Offer>,
-    /// What is allowed, but rarely meant.
-    pub warnings: Vec<String>,
-}
-
-/// A connection of two components.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Wire {
-    /// Component and its output.
-    pub from: (usize, String),
-    /// Component and its input.
-    pub to: (usize, String),
-    /// What happens on the way.
-    pub hops: Vec<Hop>,
-    /// Where the last connection stands.
-    pub place: String,
-}
+use crate::values::bind;
 
 /// Flattens a structure whose files are loaded; problems go to `report`.
 pub fn flatten(structure: &Structure, report: &mut Report) -> Flat {

@@ -7,23 +7,28 @@
 
 mod archive;
 mod bindings;
+mod flat;
 mod flatten;
 mod graph;
 mod load;
 mod parameters;
 mod problem;
 mod read;
+mod shared;
+mod source;
 mod system;
 mod transform;
 mod tree;
 mod types;
+mod unit;
 mod uri;
 mod values;
 mod write;
 
 pub use archive::{Content, PackError, Stamp, pack};
 pub use bindings::{read_mapping, read_set};
-pub use flatten::{Flat, Wire, flatten};
+pub use flat::{Bound, Flat, Offer, Wire};
+pub use flatten::flatten;
 pub use graph::Hop;
 pub use load::{Files, Loaded, load};
 pub use parameters::{Binding, Entry, Enumeration, Mapping, NamedUnit, Parameter, ParameterSet, Value, Values};
@@ -35,7 +40,6 @@ pub use types::{
     Source, Structure, System, Type, Unit,
 };
 pub use uri::Base;
-pub use values::{Bound, Offer};
 pub use write::write;
 
 /// Folder of the components' files.

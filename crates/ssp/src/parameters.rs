@@ -1,7 +1,8 @@
 //! Parameter sets and parameter mappings: what a binding consists of.
 
+use crate::source::Source;
 use crate::transform::Transformation;
-use crate::types::{BaseUnit, Source};
+use crate::unit::BaseUnit;
 
 /// Values for the variables of a component, or for all that is in a system by hierarchical names.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -3,7 +3,9 @@
 use std::path::PathBuf;
 
 use crate::parameters::{Binding, Enumeration};
+pub use crate::source::Source;
 use crate::transform::Transformation;
+pub use crate::unit::{BaseUnit, Unit};
 
 /// The document every archive has.
 pub const STRUCTURE: &str = "SystemStructure.ssd";
@@ -86,32 +88,6 @@ pub enum FileKind {
     Definition,
     /// Another archive of a structure.
     Package,
-}
-
-/// A file that a document names: relative to the document, or by its whole path.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Source {
-    /// The path, decoded, with slashes.
-    pub path: String,
-    /// The path as it was written, where percent signs in it were decoded: some tools do not encode.
-    pub raw: Option<String>,
-    /// Which document inside an archive, if not the usual one.
-    pub variant: Option<String>,
-    /// Whether it is relative to the component's file, not to the document.
-    pub in_component: bool,
-}
-
-impl Source {
-    /// A path inside the archive.
-    pub fn inside(path: impl Into<String>) -> Self {
-        Self { path: path.into(), ..Self::default() }
-    }
-}
-
-impl std::fmt::Display for Source {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str(&self.path)
-    }
 }
 
 /// A place where signals of a dictionary can be connected: all references to a signal are one.
@@ -215,31 +191,6 @@ pub struct Connection {
     pub suppress_unit_conversion: bool,
     /// Where it stands in the document.
     pub place: String,
-}
-
-/// A unit in terms of SI: value in SI = factor · value + offset.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Unit {
-    /// Its name.
-    pub name: String,
-    /// What it is.
-    pub base: BaseUnit,
-}
-
-/// Powers of the base units, with factor and offset to them.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct BaseUnit {
-    /// Powers of kg, m, s, A, K, mol, cd, rad.
-    pub powers: [i32; 8],
-    /// Factor to the base units.
-    pub factor: f64,
-    /// Offset in the base units.
-    pub offset: f64,
-}
-
-impl BaseUnit {
-    /// Names of the powers, in their order.
-    pub const NAMES: [&'static str; 8] = ["kg", "m", "s", "A", "K", "mol", "cd", "rad"];
 }
 
 /// The default experiment.

@@ -5,36 +5,10 @@
 //! where its connections lead, transformed by them. Of two values for one variable the one that is bound further out holds,
 //! on one level the one that is bound last. With a mapping only what it names is bound.
 
-use crate::flatten::Flat;
+use crate::flat::{Bound, Flat, Offer};
 use crate::graph::{Graph, Hop, Node};
 use crate::parameters::{Binding, Mapping, Value, Values};
 use crate::types::Connector;
-
-/// A value for a variable of a component, if the component has one of this name.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Bound {
-    /// Name of the variable.
-    pub variable: String,
-    /// The value as it is bound.
-    pub value: Value,
-    /// What happens to it on its way.
-    pub hops: Vec<Hop>,
-    /// Which of the offers it comes from.
-    pub offer: usize,
-}
-
-/// A value that a binding offers; it may fit nowhere.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Offer {
-    /// Its name after prefix and mapping.
-    pub name: String,
-    /// The file it stands in, as messages call it.
-    pub file: String,
-    /// Where in it.
-    pub place: String,
-    /// Whether a connector of a system has its name.
-    pub connector: bool,
-}
 
 /// Values of a system and of all in it, from the inside out.
 pub(crate) fn bind(graph: &Graph, level: usize, flat: &mut Flat) {

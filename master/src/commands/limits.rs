@@ -3,7 +3,7 @@
 use serde_json::{Value, json};
 use ttb_assessment::criterion::{DEFAULT, names, text};
 
-use super::list::{json as print, unknown};
+use super::listed::{json as print, unknown};
 use crate::cli::List;
 use crate::error::Error;
 

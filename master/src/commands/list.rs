@@ -1,10 +1,10 @@
 //! `ttb list`: what comes with the program, by kind; the data of one.
 
 use ttb_scenario::bundled::{Kind, files};
-use ttb_scenario::nearest;
 use ttb_trains::{ForceTrain, find, load_model, load_model_names, names::TRAINS};
 
 use super::limits;
+use super::listed::{json, unknown};
 use crate::cli::{List, Listed};
 use crate::error::Error;
 
@@ -113,16 +113,5 @@ fn data(kind: Kind, what: &str, arguments: &List) -> Result<(), Error> {
     for (name, text) in all {
         say!("{name:<20} {}", parsed(text)["source"].as_str().unwrap_or_default());
     }
-    Ok(())
-}
-
-pub(super) fn unknown<'a>(what: &str, name: &str, known: impl Iterator<Item = &'a str> + Clone) -> Error {
-    let meant = nearest(name, known.clone()).map(|name| format!(" (did you mean `{name}`?)")).unwrap_or_default();
-    let known = known.collect::<Vec<_>>().join(", ");
-    Error::Input(format!("there is no {what} named `{name}`{meant}; there are: {known}"))
-}
-
-pub(super) fn json(value: &impl serde::Serialize) -> Result<(), Error> {
-    say!("{}", crate::files::json(std::path::Path::new("standard output"), value)?);
     Ok(())
 }

@@ -16,6 +16,7 @@ pub mod interoperability;
 pub mod keeper;
 mod limits;
 pub mod list;
+mod listed;
 pub mod new;
 mod output;
 mod progress;

@@ -2,7 +2,7 @@
 
 use serde_json::Value;
 
-use super::read::LimitsProblem;
+use super::problem::LimitsProblem;
 
 /// Keys of an object, and which of their values are objects with keys of their own.
 pub(super) struct Shape {

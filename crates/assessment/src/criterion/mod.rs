@@ -8,13 +8,15 @@
 
 mod bundled;
 mod keys;
+mod problem;
 mod read;
 mod rule;
 
 use serde::{Deserialize, Serialize};
 
 pub use bundled::{DEFAULT, names, text};
-pub use read::{Criteria, LimitsProblem};
+pub use problem::LimitsProblem;
+pub use read::Criteria;
 pub use rule::{CutOff, FilterRule, Limit, ResolvedFilter};
 
 use crate::facts::Facts;

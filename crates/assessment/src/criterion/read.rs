@@ -3,48 +3,15 @@
 //! An entry that overrides another gives only the keys that change. It must have a `source` of its own, and is marked `user`
 //! unless it says otherwise, so that a report never shows a project's number under the name of a code.
 
-use std::fmt;
-
 use serde_json::{Map, Value};
 
 use super::bundled;
 use super::keys::{FILE, nearest};
+use super::problem::LimitsProblem;
 use super::{Criterion, FilterRule};
 use crate::facts::Facts;
 use crate::filter::Filter;
 use crate::peak::Statistic;
-
-/// One problem of a limits file.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct LimitsProblem {
-    /// The file as it was named.
-    pub file: String,
-    /// JSON path; empty for the file as a whole.
-    pub path: String,
-    /// The rule.
-    pub rule: String,
-    /// What was found.
-    pub value: String,
-    /// What may have been meant.
-    pub suggestion: Option<String>,
-}
-
-impl fmt::Display for LimitsProblem {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}: ", self.file)?;
-        if !self.path.is_empty() {
-            write!(f, "{}: ", self.path)?;
-        }
-        f.write_str(&self.rule)?;
-        if !self.value.is_empty() {
-            write!(f, ": {}", self.value)?;
-        }
-        match &self.suggestion {
-            Some(name) => write!(f, " (did you mean `{name}`?)"),
-            None => Ok(()),
-        }
-    }
-}
 
 /// A set of criteria in the order of their files.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -8,7 +8,7 @@ use super::audit::Audit;
 use super::elements::{self, coordinates};
 use super::freedoms::{Fate, Freedoms};
 use crate::deck::Row;
-use crate::drawing::{Outline, Weight};
+use crate::outline::{Outline, Weight};
 
 /// Nodes as points; beams, trusses, shells and springs between two nodes as cells.
 ///

@@ -15,7 +15,7 @@ mod run;
 pub(crate) use run::chosen_steps;
 
 use crate::pieces::Pieces;
-use crate::place::Placement;
+use crate::placement::Placement;
 use crate::problem::Report;
 use crate::resolve::Resolved;
 
