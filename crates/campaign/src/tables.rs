@@ -11,6 +11,8 @@ use std::fs::{self, File};
 use std::io::{BufWriter, Write};
 use std::path::{Path, PathBuf};
 
+use ttb_assessment::Peak;
+
 use crate::error::Error;
 use crate::journal::Journal;
 use crate::plan::{Load, Plan, Rail, Run};
@@ -21,7 +23,8 @@ pub const TABLES: [&str; 3] = ["runs.csv", "peaks.csv", "envelope.csv"];
 /// Name of the table of times.
 pub const TIMINGS: &str = "timings.csv";
 
-const RUNS: [&str; 13] = [
+/// Columns of runs.csv.
+pub const RUNS: [&str; 14] = [
     "run_id",
     "way",
     "train",
@@ -35,8 +38,10 @@ const RUNS: [&str; 13] = [
     "step_s",
     "modes",
     "status",
+    "error",
 ];
-const PEAKS: [&str; 15] = [
+/// Columns of peaks.csv.
+pub const PEAKS: [&str; 15] = [
     "run_id",
     "train",
     "speed_km_h",
@@ -79,8 +84,7 @@ pub fn rail(load: &Load, rail: Rail, own_is_smooth: bool) -> &'static str {
 /// # Errors
 /// A file cannot be read or written.
 pub fn write(folder: &Path, plan: &Plan, runs: &[Run], journal: &Journal, own_is_smooth: bool) -> Result<(), Error> {
-    let runs_header = RUNS.into_iter().chain(["error"]);
-    let mut of_runs = Table::create(&folder.join(TABLES[0]), runs_header)?;
+    let mut of_runs = Table::create(&folder.join(TABLES[0]), RUNS.into_iter())?;
     let mut of_peaks = Table::create(&folder.join(TABLES[1]), PEAKS.into_iter())?;
     let mut of_envelopes = Table::create(&folder.join(TABLES[2]), ENVELOPE.into_iter())?;
     let mut of_times = Table::create(&folder.join(TIMINGS), ["run_id", "seconds"].into_iter())?;
@@ -89,7 +93,7 @@ pub fn write(folder: &Path, plan: &Plan, runs: &[Run], journal: &Journal, own_is
         let named = Named::of(plan, run);
         of_runs.row(&run_row(plan, run, &named, &record, own_is_smooth))?;
         for peak in &record.peaks {
-            of_peaks.row(&peak_row(run, &named, peak))?;
+            of_peaks.row(&peak_row(&run.id, &named, peak))?;
         }
         for envelope in &record.envelopes {
             for ((x, min), max) in envelope.x.iter().zip(&envelope.min).zip(&envelope.max) {
@@ -147,9 +151,10 @@ fn run_row(plan: &Plan, run: &Run, named: &Named, record: &Record, own_is_smooth
     ]
 }
 
-fn peak_row(run: &Run, named: &Named, peak: &ttb_assessment::Peak) -> Vec<String> {
+/// A row of peaks.csv, in the order of [`PEAKS`].
+pub fn peak_row(id: &str, named: &Named, peak: &Peak) -> Vec<String> {
     vec![
-        run.id.clone(),
+        id.into(),
         named.train.clone(),
         named.speed_km_h.clone(),
         named.variant.clone(),
@@ -167,7 +172,8 @@ fn peak_row(run: &Run, named: &Named, peak: &ttb_assessment::Peak) -> Vec<String
     ]
 }
 
-fn optional(value: Option<f64>) -> String {
+/// A number, or an empty field.
+pub fn optional(value: Option<f64>) -> String {
     value.map_or_else(String::new, |value| value.to_string())
 }
 

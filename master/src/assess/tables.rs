@@ -5,6 +5,7 @@ use std::path::Path;
 use std::str::FromStr;
 
 use ttb_assessment::{Basis, Loads, Peak, PlaceKind, Rail, Results, Run, Statistic};
+use ttb_campaign::tables::{self, Named, optional, peak_row};
 
 use crate::error::Error;
 use crate::files;
@@ -14,40 +15,6 @@ pub const RUNS: &str = "runs.csv";
 /// Name of the table of reduced values.
 pub const PEAKS: &str = "peaks.csv";
 
-const RUN_COLUMNS: [&str; 14] = [
-    "run_id",
-    "way",
-    "train",
-    "speed_km_h",
-    "speed_m_s",
-    "variant",
-    "seed",
-    "basis",
-    "rail",
-    "refined",
-    "step_s",
-    "modes",
-    "status",
-    "error",
-];
-const PEAK_COLUMNS: [&str; 15] = [
-    "run_id",
-    "train",
-    "speed_km_h",
-    "variant",
-    "seed",
-    "quantity",
-    "place_kind",
-    "place",
-    "x_m",
-    "filter",
-    "statistic",
-    "value",
-    "unit",
-    "time_s",
-    "static_value",
-];
-
 /// Writes both tables of one coupled run with steps of `step` s.
 pub fn write(folder: &Path, run: &Run, step: f64, peaks: &[Peak]) -> Result<(), Error> {
     let (loads, rail) = words(run.basis);
@@ -56,8 +23,8 @@ pub fn write(folder: &Path, run: &Run, step: f64, peaks: &[Peak]) -> Result<(), 
         run.run_id.clone(),
         "coupled".into(),
         run.train.clone(),
-        number(run.speed_km_h),
-        number(speed),
+        optional(run.speed_km_h),
+        optional(speed),
         run.variant.clone(),
         run.seed.clone(),
         loads.into(),
@@ -68,27 +35,15 @@ pub fn write(folder: &Path, run: &Run, step: f64, peaks: &[Peak]) -> Result<(), 
         "done".into(),
         String::new(),
     ];
-    table(&folder.join(RUNS), &RUN_COLUMNS, std::iter::once(row.to_vec()))?;
-    let rows = peaks.iter().map(|peak| {
-        vec![
-            run.run_id.clone(),
-            run.train.clone(),
-            number(run.speed_km_h),
-            run.variant.clone(),
-            run.seed.clone(),
-            peak.quantity.to_string(),
-            peak.place_kind.to_string(),
-            peak.place.to_string(),
-            number(peak.x),
-            peak.filter.to_string(),
-            peak.statistic.to_string(),
-            peak.value.to_string(),
-            peak.unit.to_string(),
-            number(peak.time),
-            number(peak.static_value),
-        ]
-    });
-    table(&folder.join(PEAKS), &PEAK_COLUMNS, rows)
+    table(&folder.join(RUNS), &tables::RUNS, std::iter::once(row.to_vec()))?;
+    let named = Named {
+        train: run.train.clone(),
+        speed_km_h: optional(run.speed_km_h),
+        variant: run.variant.clone(),
+        seed: run.seed.clone(),
+    };
+    let rows = peaks.iter().map(|peak| peak_row(&run.run_id, &named, peak));
+    table(&folder.join(PEAKS), &tables::PEAKS, rows)
 }
 
 fn words(basis: Basis) -> (&'static str, &'static str) {
@@ -101,10 +56,6 @@ fn words(basis: Basis) -> (&'static str, &'static str) {
         Rail::Rough => "rough",
     };
     (loads, rail)
-}
-
-fn number(value: Option<f64>) -> String {
-    value.map_or_else(String::new, |value| value.to_string())
 }
 
 fn table(path: &Path, header: &[&str], rows: impl Iterator<Item = Vec<String>>) -> Result<(), Error> {
