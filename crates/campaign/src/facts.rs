@@ -8,38 +8,74 @@
 use std::f64::consts::PI;
 
 use ttb_assessment::Facts;
+use ttb_bridge::Prepared;
 use ttb_scenario::Checked;
 use ttb_scenario::spec::{BridgeSpec, Span, StructureSpec};
 use ttb_scenario::types::Support;
 
 use crate::points::bearings;
 
-/// Facts of a scenario. What cannot be told stays unknown.
+/// More degrees of freedom are not searched for frequencies in passing.
+const MANY: usize = 20_000;
+
+/// First and third frequency, Hz, and where they come from.
+type Modes = (f64, Option<f64>, &'static str);
+
+/// Facts of a scenario; its bridge is prepared where its frequencies are needed. What cannot be told stays unknown.
 pub fn of(checked: &Checked) -> Facts {
-    let (n0_hz, third_mode_hz, modes_from) = match modes(&checked.bridge) {
-        Some((first, third, from)) => (Some(first), third, Some(from.into())),
-        None => (None, None, None),
-    };
-    let spans: Vec<f64> = bearings(&checked.bridge.structure).windows(2).map(|span| span[1] - span[0]).collect();
+    let whole = || BridgeSpec { points: Vec::new(), reduction: None, modes: None, ..checked.bridge.clone() };
+    of_own(checked, || {
+        let bridge = Prepared::new(&whole()).ok()?;
+        lowest(&bridge)
+    })
+}
+
+/// Facts of a scenario whose bridge is prepared already; frequencies of a large one stay unknown.
+pub fn of_prepared(checked: &Checked, bridge: &Prepared) -> Facts {
+    of_own(checked, || if bridge.structure.ndof > MANY { None } else { lowest(bridge) })
+}
+
+/// Facts of a scenario whose bridge is an FMU of the user: those of the track.
+pub fn of_track(checked: &Checked) -> Facts {
     let track = match checked.train_track.track.support {
         Support::SingleLayer { .. } => "ballastless",
         Support::TwoLayer { .. } | Support::ThreeLayer { .. } => "ballast",
     };
-    let spans_m = (!spans.is_empty()).then_some(spans);
-    Facts { n0_hz, third_mode_hz, modes_from, track: Some(track.into()), spans_m, ..Facts::default() }
+    Facts { track: Some(track.into()), ..Facts::default() }
 }
 
-/// First and third frequency, Hz, and where they come from.
-fn modes(bridge: &BridgeSpec) -> Option<(f64, Option<f64>, &'static str)> {
-    if let StructureSpec::Beams { spans, continuous } = &bridge.structure
-        && (!continuous || spans.len() == 1)
-    {
-        let first = spans.iter().map(|span| frequency(span, 1)).reduce(f64::min)?;
-        let third = spans.iter().map(|span| frequency(span, 3)).reduce(f64::max);
-        return Some((first, third, "bending modes of the simple spans, closed form"));
+/// Facts of a scenario's own bridge; `others` knows the modes of what is no row of simple spans.
+fn of_own(checked: &Checked, others: impl FnOnce() -> Option<Modes>) -> Facts {
+    let structure = &checked.bridge.structure;
+    let (n0_hz, third_mode_hz, modes_from) = match simple(structure).or_else(others) {
+        Some((first, third, from)) => (Some(first), third, Some(from.into())),
+        None => (None, None, None),
+    };
+    let spans_m = Some(spans(structure)).filter(|spans| !spans.is_empty());
+    Facts { n0_hz, third_mode_hz, modes_from, spans_m, ..of_track(checked) }
+}
+
+fn spans(structure: &StructureSpec) -> Vec<f64> {
+    match structure {
+        StructureSpec::Beams { spans, .. } => spans.iter().map(|span| span.length).collect(),
+        _ => bearings(structure).windows(2).map(|span| span[1] - span[0]).collect(),
     }
-    let whole = BridgeSpec { points: Vec::new(), reduction: None, modes: None, ..bridge.clone() };
-    let found = ttb_bridge::Prepared::new(&whole).ok()?.structure.natural_frequencies(3).ok()?;
+}
+
+/// Of simple spans, each a member of its own.
+fn simple(structure: &StructureSpec) -> Option<Modes> {
+    let StructureSpec::Beams { spans, continuous } = structure else { return None };
+    if *continuous && spans.len() > 1 {
+        return None;
+    }
+    let first = spans.iter().map(|span| frequency(span, 1)).reduce(f64::min)?;
+    let third = spans.iter().map(|span| frequency(span, 3)).reduce(f64::max);
+    Some((first, third, "bending modes of the simple spans, closed form"))
+}
+
+/// Of any other model.
+fn lowest(bridge: &Prepared) -> Option<Modes> {
+    let found = bridge.structure.natural_frequencies(3).ok()?;
     Some((*found.first()?, found.get(2).copied(), "the three lowest natural modes of the model, whatever their shape"))
 }
 

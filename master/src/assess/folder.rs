@@ -4,10 +4,11 @@ use std::path::{Path, PathBuf};
 
 use serde_json::Value;
 use ttb_assessment::Results;
+use ttb_campaign::facts;
 use ttb_scenario::Checked;
 
 use super::run::{Assessment, FILE};
-use super::{facts, tables};
+use super::tables;
 use crate::error::Error;
 
 /// The plan of a sweep.
@@ -89,5 +90,5 @@ fn scenario(folder: &Path, plan: Option<&Value>, warnings: &mut Vec<String>) -> 
 
 fn sweep_facts(checked: &Checked) -> ttb_assessment::Facts {
     let bridge = ttb_bridge::Prepared::new(&checked.bridge).ok();
-    facts::of(checked, bridge.as_deref())
+    bridge.map_or_else(|| facts::of_track(checked), |bridge| facts::of_prepared(checked, &bridge))
 }

@@ -1,6 +1,5 @@
 //! From runs to verdicts: what is watched during a run, the tables of a folder, limits and facts.
 
-pub mod facts;
 pub mod folder;
 pub mod limits;
 pub mod report;

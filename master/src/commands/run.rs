@@ -4,6 +4,7 @@ use std::path::Path;
 use std::time::Instant;
 
 use ttb_assessment::{Criteria, Facts};
+use ttb_campaign::facts;
 use ttb_contract::Subsystem;
 use ttb_coupling::probe::Probe;
 use ttb_fmi::temporary::Temporary;
@@ -13,9 +14,9 @@ use ttb_session::{Coupled, Ended, Plan, drive};
 
 use super::output::{Opening, Output};
 use super::progress::progress_bar;
+use crate::assess::limits;
 use crate::assess::run::{About, write as write_assessment};
 use crate::assess::watch::Watch;
-use crate::assess::{facts, limits};
 use crate::cli::Run;
 use crate::connect::connected::{Connected, Given, connect};
 use crate::connect::isolate::Isolated;
@@ -76,11 +77,11 @@ fn run_scenario(arguments: &Run, isolated: &Isolated, criteria: &Criteria, stop:
         None => fmus::train_track(&checked, place.path()).inspect(|path| built.push(path.clone()))?,
     };
     let mut bridges = arguments.bridge.clone();
-    let mut known = facts::of(&checked, None);
+    let mut known = facts::of_track(&checked);
     if bridges.is_empty() {
         let ready = ready.map_or_else(|| fmus::prepared_bridge(&checked), Ok)?;
         checked.warnings.extend(ready.remarks().iter().cloned());
-        known = facts::of(&checked, Some(&ready));
+        known = facts::of_prepared(&checked, &ready);
         bridges.push(fmus::bridge(&ready, &checked, place.path()).inspect(|path| built.push(path.clone()))?);
     }
     let bridges: Vec<Given> = bridges.iter().enumerate().map(|(k, path)| Given { path, map: map(k) }).collect();
