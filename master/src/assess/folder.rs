@@ -53,7 +53,7 @@ impl Opened {
             Ok(text) => serde_json::from_str(&text).map_err(|e| Error::Input(format!("{}: {e}", path.display())))?,
             Err(_) => Assessment {
                 title: checked.as_ref().map_or_else(String::new, |checked| checked.scenario.title.clone()),
-                facts: checked.as_ref().map(sweep_facts).unwrap_or_default(),
+                facts: checked.as_ref().map(facts::of).unwrap_or_default(),
                 ..Assessment::default()
             },
         };
@@ -86,9 +86,4 @@ fn scenario(folder: &Path, plan: Option<&Value>, warnings: &mut Vec<String>) -> 
             None
         }
     }
-}
-
-fn sweep_facts(checked: &Checked) -> ttb_assessment::Facts {
-    let bridge = ttb_bridge::Prepared::new(&checked.bridge).ok();
-    bridge.map_or_else(|| facts::of_track(checked), |bridge| facts::of_prepared(checked, &bridge))
 }
