@@ -17,7 +17,9 @@ pub enum Computed {
 /// Something that computes runs of a plan. The result of a run must not depend on which others are computed with it.
 pub trait Compute: Sync {
     /// How many runs a call takes best.
-    fn batch(&self) -> usize;
+    fn batch(&self) -> usize {
+        1
+    }
 
     /// Puts runs into the order in which they cost least together; the results do not depend on it.
     fn arrange(&self, _runs: &mut [Run]) {}

@@ -49,10 +49,6 @@ pub struct Bridges(Mutex<Vec<Arc<ttb_bridge::Prepared>>>);
 const KEPT: usize = 4;
 
 impl Compute for Loads<'_> {
-    fn batch(&self) -> usize {
-        1
-    }
-
     fn compute(&self, runs: &[Run], stop: &AtomicBool) -> Vec<Computed> {
         runs.iter().map(|run| self.one(run, stop)).collect()
     }

@@ -40,10 +40,6 @@ pub struct Vehicles<'a> {
 }
 
 impl Compute for Vehicles<'_> {
-    fn batch(&self) -> usize {
-        1
-    }
-
     fn compute(&self, runs: &[Run], stop: &AtomicBool) -> Vec<Computed> {
         runs.iter().map(|run| self.one(run, stop)).collect()
     }
