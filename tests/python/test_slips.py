@@ -133,6 +133,26 @@ def test_an_endless_file_is_refused_at_once(ttb, examples, tmp_path, kind):
     assert "/dev/zero" in ttb(*command, expect=2).stderr
 
 
+@pytest.mark.parametrize(
+    "command, code",
+    [
+        (["sweep", "/dev/zero", "-o", "out"], 2),
+        (["sweep", "s.json", "--trains", "zero.csv", "--speeds", "200", "-o", "out"], 2),
+        (["sweep", "s.json", "--variants", "zero.json", "--speeds", "200", "-o", "out"], 2),
+        (["campaign", "zero.json", "-o", "out"], 5),
+        (["run", "s.json", "--limits", "zero.json", "-o", "out"], 2),
+        (["signature", "zero.csv"], 2),
+    ],
+    ids=lambda value: value[0] if isinstance(value, list) else "",
+)
+def test_what_sweeps_and_verdicts_read_is_bounded(ttb, examples, tmp_path, command, code):
+    """The same for lists of axles, variants, plans and limits."""
+    changed(examples / "r1.json", tmp_path / "s.json", {})
+    for name in ("zero.csv", "zero.json"):
+        (tmp_path / name).symlink_to("/dev/zero")
+    assert "zero" in ttb(*command, expect=code, cwd=tmp_path).stderr
+
+
 def test_a_pipe_without_a_writer_is_refused(ttb, examples, tmp_path):
     """It would be waited for without end."""
     os.mkfifo(tmp_path / "pipe")

@@ -41,7 +41,7 @@ pub struct Expanded {
 /// # Errors
 /// It cannot be read.
 pub fn source(scenario: &Path, set: impl IntoIterator<Item = (String, Value)>) -> Result<Source, Error> {
-    let text = std::fs::read_to_string(scenario)
+    let text = ttb_scenario::read_text(scenario)
         .map_err(|error| Error::Input(format!("{}: the scenario file cannot be read: {error}", scenario.display())))?;
     let folder = scenario.parent().unwrap_or(Path::new("")).to_path_buf();
     let settings = set.into_iter().map(|(key, value)| Setting { key, value }).collect();

@@ -164,7 +164,7 @@ impl Request {
     /// # Errors
     /// It cannot be read, or is no request.
     pub fn read(path: &Path) -> Result<Self, Error> {
-        let text = std::fs::read_to_string(path).map_err(Error::io(path))?;
+        let text = ttb_scenario::read_text(path).map_err(Error::io(path))?;
         let name = path.display().to_string();
         let mut request: Self =
             serde_json::from_str(&text).map_err(|error| Error::Input(format!("{name}: {error}")))?;

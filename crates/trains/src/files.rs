@@ -75,7 +75,7 @@ impl Found<'_> {
 pub fn read(path: &Path) -> Result<Vec<ForceTrain>, Problems> {
     let file = path.display().to_string();
     let mut found = Found { file: &file, problems: Vec::new() };
-    let trains = match std::fs::read_to_string(path) {
+    let trains = match ttb_scenario::read_text(path) {
         Err(error) => {
             found.note("", "the file of a train cannot be read", error);
             Vec::new()

@@ -18,7 +18,7 @@ pub fn load(names: &[String]) -> Result<Criteria, Error> {
     for name in &all {
         match (is_file(name), criterion::text(name)) {
             (false, Some(text)) => texts.push((name.as_str(), text.to_string())),
-            (true, _) => match std::fs::read_to_string(Path::new(name)) {
+            (true, _) => match ttb_scenario::read_text(Path::new(name)) {
                 Ok(text) => texts.push((name.as_str(), text)),
                 Err(error) => problems.push(format!("{name}: {error}")),
             },

@@ -32,7 +32,7 @@ fn is_stored(file: &Path) -> bool {
     struct Stored {
         format: Option<u32>,
     }
-    let text = std::fs::read_to_string(file).unwrap_or_default();
+    let text = ttb_scenario::read_text(file).unwrap_or_default();
     serde_json::from_str::<Stored>(&text).is_ok_and(|stored| stored.format.is_some())
 }
 

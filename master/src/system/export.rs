@@ -35,7 +35,7 @@ const COMPONENTS: [(&str, [f64; 4]); 2] =
 pub fn export(arguments: &ExportSsp) -> Result<PathBuf, Error> {
     let (checked, prepared) = decided(arguments.scenario.as_deref(), &arguments.set)?;
     let text = match &arguments.scenario {
-        Some(path) => std::fs::read_to_string(path).map_err(Error::io(path))?,
+        Some(path) => ttb_scenario::read_text(path).map_err(Error::io(path))?,
         None => ttb_scenario::default_scenario_text().to_string(),
     };
     let folder = Temporary::new("ttb-export-").map_err(Error::io(Path::new("temporary folder")))?;

@@ -40,7 +40,7 @@ pub fn expand(request: &Request, beside: &Path) -> Result<Expanded, Error> {
 
 /// A stored plan with its scenario, which must mean what it meant.
 pub fn stored(file: &Path) -> Result<Expanded, Error> {
-    let text = std::fs::read_to_string(file).map_err(Error::io(file))?;
+    let text = ttb_scenario::read_text(file).map_err(Error::io(file))?;
     let plan = Plan::parse(&text, &file.display().to_string())?;
     let scenario = file.parent().unwrap_or(Path::new("")).join(&plan.scenario);
     let source = expand::source(&scenario, plan.set.iter().cloned())?;

@@ -51,7 +51,7 @@ fn variants(text: &str) -> Result<Variants, Error> {
     if path.extension().is_none_or(|ending| ending != "json") {
         return Ok(Variants::Word(text.into()));
     }
-    let file = std::fs::read_to_string(path).map_err(|error| Error::Input(format!("--variants: {text}: {error}")))?;
+    let file = ttb_scenario::read_text(path).map_err(|error| Error::Input(format!("--variants: {text}: {error}")))?;
     let list: Result<Vec<Variant>, _> = serde_json::from_str(&file);
     list.map(Variants::These).map_err(|error| Error::Input(format!("--variants: {text}: {error}")))
 }
