@@ -1,0 +1,157 @@
+//! The table from two profiles: sums over the wheel at equal distances, which are the nodes' distances in D as well.
+
+use super::{Geometry, LEAST_CURVATURE, Node, Part};
+use crate::profile::rail::Placed;
+use crate::profile::wheel::FLANGE_BACK;
+use crate::profile::{Point, Shape};
+
+/// How a wheelset stands in the track, and how finely its table is made.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pairing {
+    /// Distance of the flange backs, mm.
+    pub back_to_back: f64,
+    /// s of the wheel's flange back, mm.
+    pub flange_back: f64,
+    /// ε, mm.
+    pub softness: f64,
+    /// Where the wheel's profile is split: flange for smaller s, mm.
+    pub split: f64,
+    /// Distance of the table's nodes and of the points of the sums, mm.
+    pub spacing: f64,
+    /// Largest displacement to either side, mm.
+    pub reach: f64,
+}
+
+impl Default for Pairing {
+    /// 1360 mm between the backs, ε = 20 µm, S1002's split at −33 mm, nodes each 0.025 mm up to 25 mm.
+    fn default() -> Self {
+        Self {
+            back_to_back: 1360.0,
+            flange_back: FLANGE_BACK,
+            softness: 0.02,
+            split: -33.0,
+            spacing: 0.025,
+            reach: 25.0,
+        }
+    }
+}
+
+/// Gaps larger than the smallest by this many ε weigh nothing: e⁻⁴⁰.
+const NEGLIGIBLE: f64 = 40.0;
+/// The flange's table ends where the slope has come back to this after its steepest: the top of the flange stands on the rail.
+const FLANGE_TOP: f64 = -0.1;
+
+/// The flange's table begins where it comes this close to the rail, m.
+const NEAR: f64 = 5e-3;
+
+/// The table of `wheel` on `rail`.
+///
+/// # Errors
+/// Profiles that never touch on the tread within the reach, or settings without sense, as a message.
+pub fn of_profiles(wheel: &Shape, rail: &Placed, pairing: &Pairing) -> Result<Geometry, String> {
+    let Pairing { softness, spacing, reach, split, .. } = *pairing;
+    for (name, value) in [("softness", softness), ("spacing", spacing), ("reach", reach)] {
+        if !(value.is_finite() && value > 0.0) {
+            return Err(format!("the {name} of a contact table is {value} mm; it must be a number above 0"));
+        }
+    }
+    if reach / spacing > 20_000.0 {
+        return Err(format!("a contact table of {reach} mm to either side each {spacing} mm is too large"));
+    }
+    let half = (reach / spacing).round() as i64;
+    let taping = 0.5 * pairing.back_to_back - pairing.flange_back;
+    let [from, to] = wheel.extent();
+    let [below, above] = [(from / spacing).ceil() as i64, (to / spacing).floor() as i64];
+    let at = ((split / spacing).round() as i64).clamp(below, above);
+    let wheel: Vec<Point> = (below..=above).map(|i| wheel.at(i as f64 * spacing)).collect();
+    let u = |i: i64| taping + i as f64 * spacing;
+    let rails: Vec<Option<Point>> = (below - half..=above + half).map(|i| rail.at(u(i))).collect();
+    let heights = rails.iter().map(|rail| rail.map_or(f64::INFINITY, |rail| rail.z)).collect();
+    let wheel_heights = wheel.iter().map(|point| point.z).collect();
+    let sums = Sums { wheel: &wheel, rails: &rails, wheel_heights, heights, below, half, u: &u, softness, spacing };
+    let mut tread = part(&sums, [at, above], half);
+    let mut flange = part(&sums, [below, at], half);
+    let [start, end] = tread.extent();
+    if tread.nodes.is_empty() || start > 0.0 || end < 0.0 {
+        return Err(
+            "the wheel's tread does not lie on the rail: check gauge, distance of the wheels and profiles".into()
+        );
+    }
+    // Where the flange lies deep beside the rail its edges alone would be seen.
+    let near = flange.nodes.iter().position(|node| node.distance < NEAR).unwrap_or(flange.nodes.len());
+    flange.nodes.drain(..near);
+    flange.start += near as f64 * flange.spacing;
+    let steepest = flange.nodes.iter().enumerate().min_by(|a, b| a.1.slope.total_cmp(&b.1.slope)).map_or(0, |(i, _)| i);
+    if let Some(top) = flange.nodes[steepest..].iter().position(|node| node.slope > FLANGE_TOP) {
+        flange.nodes.truncate(steepest + top + 1);
+    }
+    let offset = tread.distance(0.0)[0];
+    tread.nodes.iter_mut().chain(&mut flange.nodes).for_each(|node| node.distance -= offset);
+    Ok(Geometry { parts: [tread, flange], softness: 1e-3 * softness })
+}
+
+struct Sums<'a> {
+    wheel: &'a [Point],
+    rails: &'a [Option<Point>],
+    /// z alone, infinite where there is no rail.
+    wheel_heights: Vec<f64>,
+    heights: Vec<f64>,
+    /// Index of the wheel's first point; s = index × spacing.
+    below: i64,
+    half: i64,
+    u: &'a dyn Fn(i64) -> f64,
+    softness: f64,
+    spacing: f64,
+}
+
+/// The part for the wheel's points from the first to the second index, as far as it lies over the rail.
+fn part(sums: &Sums, wheel: [i64; 2], half: i64) -> Part {
+    let all = (-half..=half).map(|shift| (shift, sums.node(wheel, shift)));
+    let mut over = all.skip_while(|(_, node)| node.is_none()).map_while(|(shift, node)| Some((shift, node?)));
+    let Some((first, node)) = over.next() else { return Part::default() };
+    let nodes = std::iter::once(node).chain(over.map(|(_, node)| node)).collect();
+    Part { start: 1e-3 * first as f64 * sums.spacing, spacing: 1e-3 * sums.spacing, nodes }
+}
+
+impl Sums<'_> {
+    /// The sums at D = `shift` × spacing; `None` where the wheel's part has no rail below it. Metres.
+    fn node(&self, [first, last]: [i64; 2], shift: i64) -> Option<Node> {
+        let at = (first - self.below) as usize;
+        let over = (first + shift - self.below + self.half) as usize;
+        let count = (last - first + 1) as usize;
+        let (wheels, rails) = (&self.wheel_heights[at..at + count], &self.heights[over..over + count]);
+        let closest = wheels.iter().zip(rails).map(|(wheel, rail)| rail - wheel).fold(f64::INFINITY, least);
+        if !closest.is_finite() {
+            return None;
+        }
+        let negligible = closest + NEGLIGIBLE * self.softness;
+        let (mut sum, mut node) = (0.0, Node::default());
+        for (i, (wheel, rail)) in wheels.iter().zip(rails).enumerate() {
+            let gap = rail - wheel;
+            if gap > negligible {
+                continue;
+            }
+            let (wheel, Some(rail)) = (&self.wheel[at + i], &self.rails[over + i]) else { continue };
+            // Trapezoidal rule.
+            let end = if i == 0 || i + 1 == count { 0.5 } else { 1.0 };
+            let p = end * (-(gap - closest) / self.softness).exp();
+            sum += p;
+            node.slope += p * rail.slope;
+            node.across += p * (self.u)(first + i as i64 + shift);
+            node.radius_change += p * wheel.z;
+            node.curvature += p * (rail.curvature() - wheel.curvature());
+        }
+        Some(Node {
+            distance: 1e-3 * (closest - self.softness * (sum * self.spacing).ln()),
+            slope: node.slope / sum,
+            across: 1e-3 * node.across / sum,
+            radius_change: 1e-3 * node.radius_change / sum,
+            curvature: (1e3 * node.curvature / sum).max(LEAST_CURVATURE),
+        })
+    }
+}
+
+/// The smaller of two numbers that are no NaN, in one instruction.
+fn least(a: f64, b: f64) -> f64 {
+    if b < a { b } else { a }
+}
