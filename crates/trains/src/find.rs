@@ -53,6 +53,24 @@ pub fn find(name: &str) -> Result<Vec<ForceTrain>, Problems> {
     ))
 }
 
+/// Axles (m behind the first one, N) of the one train of a name, or of a file that is looked for from a folder: what a scenario
+/// means by a name of forces.
+///
+/// # Errors
+/// Nothing has this name, or several trains have; all problems of a file.
+pub fn axles_of(name: &str, folder: &Path) -> Result<Vec<[f64; 2]>, String> {
+    let file = folder.join(name);
+    let file = file.is_file().then(|| file.display().to_string());
+    let trains = find(file.as_deref().unwrap_or(name)).map_err(|problems| problems.to_string())?;
+    match trains.as_slice() {
+        [train] => Ok(train.axles.iter().map(|axle| [axle.x, axle.load]).collect()),
+        several => {
+            let names: Vec<&str> = several.iter().map(|train| train.name.as_str()).collect();
+            Err(format!("stands for {} trains, and a run has one: {}", several.len(), names.join(", ")))
+        }
+    }
+}
+
 /// The trains of several names; a name given twice counts once.
 ///
 /// # Errors

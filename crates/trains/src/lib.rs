@@ -18,7 +18,7 @@ pub mod signature;
 pub mod spread;
 pub mod train;
 
-pub use find::{find, find_all, names, split};
+pub use find::{axles_of, find, find_all, names, split};
 pub use load_model::{LoadModel, load_model, load_model_names};
 pub use signature::Signature;
 pub use spread::Spread;

@@ -51,10 +51,10 @@ const BRIDGE: Kind = Kind {
 /// for keys that are left out, and its warnings.
 pub fn scenario(path: Option<&Path>, set: &Set) -> Result<Checked, Error> {
     let checked = match path {
-        Some(path) => ttb_scenario::load_using(path, &set.set, &forces),
+        Some(path) => ttb_scenario::load_using(path, &set.set, &ttb_trains::axles_of),
         None => {
             let text = ttb_scenario::default_scenario_text();
-            ttb_scenario::from_str_using(text, Path::new(""), "the bundled scenario", &set.set, &forces)
+            ttb_scenario::from_str_using(text, Path::new(""), "the bundled scenario", &set.set, &ttb_trains::axles_of)
         }
     };
     let checked = checked.map_err(Error::Scenario)?;
@@ -65,20 +65,6 @@ pub fn scenario(path: Option<&Path>, set: &Set) -> Result<Checked, Error> {
         note!("ttb: warning: {warning}");
     }
     Ok(checked)
-}
-
-/// Axles of a train of forces, by its name or by a file beside the scenario.
-pub fn forces(name: &str, folder: &Path) -> Result<Vec<[f64; 2]>, String> {
-    let file = folder.join(name);
-    let file = file.is_file().then(|| file.display().to_string());
-    let trains = ttb_trains::find(file.as_deref().unwrap_or(name)).map_err(|problems| problems.to_string())?;
-    match trains.as_slice() {
-        [train] => Ok(train.axles.iter().map(|axle| [axle.x, axle.load]).collect()),
-        several => {
-            let names: Vec<&str> = several.iter().map(|train| train.name.as_str()).collect();
-            Err(format!("stands for {} trains, and a run has one: {}", several.len(), names.join(", ")))
-        }
-    }
 }
 
 /// What was chosen, in a line; nothing of a scenario that leaves out no more than the time of free vibration.

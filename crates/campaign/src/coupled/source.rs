@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use serde_json::{Value, json};
-use ttb_scenario::{Checked, Problems, Setting, from_str_with};
+use ttb_scenario::{Checked, Problems, Setting, from_str_using};
 
 use crate::plan::{Load, Plan, Rail, Run, Variant};
 
@@ -60,7 +60,7 @@ impl Source {
 
     fn with(&self, settings: Vec<Setting>) -> Result<Checked, Problems> {
         let settings: Vec<Setting> = self.settings.iter().cloned().chain(settings).collect();
-        from_str_with(&self.text, &self.folder, &self.name, &settings)
+        from_str_using(&self.text, &self.folder, &self.name, &settings, &ttb_trains::axles_of)
     }
 }
 

@@ -133,6 +133,16 @@ fn loads_on_a_rigid_track_agree_with_the_modal_way() {
 }
 
 #[test]
+fn a_scenario_may_name_its_train_of_forces() {
+    let text = r#"{ "train": { "forces": "hslm-a1", "speed": { "km_h": 200 } },
+        "bridge": { "structure": { "type": "beams", "spans": [{ "length": 25, "bending_stiffness": 30e9, "mass": 15000 }] },
+                    "damping": { "type": "none" } } }"#;
+    let source = Source { text: text.into(), folder: "".into(), name: "named.json".into(), settings: Vec::new() };
+    let checked = source.checked().expect("the name is known");
+    assert_eq!(checked.train_track.axle_count(), ttb_trains::find("hslm-a1").expect("train")[0].axles.len());
+}
+
+#[test]
 fn a_request_names_all_its_problems_at_once() {
     let request = Request {
         scenario: example("r1.json"),
