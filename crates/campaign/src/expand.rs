@@ -48,8 +48,8 @@ pub fn source(scenario: &Path, set: impl IntoIterator<Item = (String, Value)>) -
     Ok(Source { text, folder, name: scenario.display().to_string(), settings })
 }
 
-/// Resolves a request. `modal` tells whether a bridge's damping is diagonal in its modes, `version` is the program's, `beside`
-/// the folder from which the plan names its scenario.
+/// Resolves a request whose scenario is a file. `modal` tells whether a bridge's damping is diagonal in its modes, `version` is
+/// the program's, `beside` the folder from which the plan names its scenario.
 ///
 /// # Errors
 /// Every problem of the request, a line each; those of the scenario.
@@ -60,6 +60,20 @@ pub fn expand(
     modal: &dyn Fn(&Checked) -> bool,
 ) -> Result<Expanded, Error> {
     let source = source(&request.scenario, request.set.clone())?;
+    of_source(request, source, relative(&request.scenario, beside), version, modal)
+}
+
+/// As [`expand`], of a scenario that was read already; the plan calls it `scenario`.
+///
+/// # Errors
+/// As [`expand`].
+pub fn of_source(
+    request: &Request,
+    source: Source,
+    scenario: String,
+    version: &str,
+    modal: &dyn Fn(&Checked) -> bool,
+) -> Result<Expanded, Error> {
     let checked = source.checked().map_err(|problems| Error::Input(problems.to_string()))?;
     let (facts, mut chosen, mut problems) = (facts::of(&checked), Vec::new(), Vec::new());
     let way = request.way.given().unwrap_or_else(|| {
@@ -96,7 +110,7 @@ pub fn expand(
     let plan = Plan {
         format: FORMAT,
         version: version.into(),
-        scenario: relative(&request.scenario, beside),
+        scenario,
         scenario_sha256: checked.hash.clone(),
         set: request.set.clone().into_iter().collect(),
         way,

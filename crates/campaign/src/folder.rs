@@ -9,7 +9,7 @@ use crate::error::Error;
 use crate::journal::Journal;
 use crate::plan::{self, Plan, Run};
 use crate::pool::{self, Progress};
-use crate::refine::{Key, Known, Refinement};
+use crate::refine::{Key, Known, Refined, Refinement};
 use crate::shard::Shard;
 use crate::status::Status;
 use crate::{hdf5, tables};
@@ -22,15 +22,6 @@ pub struct Folder {
     pub plan: Plan,
     /// The runs' files.
     pub journal: Journal,
-}
-
-/// What is refined, beside the plan.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Refined {
-    /// Quantities.
-    pub keys: Vec<Key>,
-    /// Speeds of resonance of every train, km/h.
-    pub resonances: Vec<Vec<f64>>,
 }
 
 impl Folder {

@@ -3,9 +3,8 @@
 use serde::{Deserialize, Serialize};
 
 use crate::error::Error;
-use crate::journal::Journal;
 use crate::plan::Run;
-use crate::record::Record;
+use crate::record::{Record, Records};
 use crate::refine::Key;
 
 /// Name of the file with the comparison.
@@ -30,11 +29,11 @@ pub struct Governing {
 /// Of every quantity the run in which it is largest; the first of equal ones.
 ///
 /// # Errors
-/// The journal cannot be read.
-pub fn of(runs: &[Run], keys: &[Key], journal: &Journal) -> Result<Vec<Governing>, Error> {
+/// A record cannot be read.
+pub fn of(runs: &[Run], keys: &[Key], records: &dyn Records) -> Result<Vec<Governing>, Error> {
     let mut best: Vec<Option<Governing>> = vec![None; keys.len()];
     for run in runs {
-        let Some(record) = journal.read(&run.id)? else { continue };
+        let Some(record) = records.of(&run.id)? else { continue };
         for (key, best) in keys.iter().zip(&mut best) {
             let Some(value) = record.amount(&key.0, &key.1) else { continue };
             if best.as_ref().is_none_or(|best| value > best.value) {

@@ -8,7 +8,7 @@ use std::io::{Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
 use crate::error::Error;
-use crate::record::{FORMAT, Record};
+use crate::record::{FORMAT, Record, Records};
 
 /// Name of the folder.
 const FOLDER: &str = "journal";
@@ -115,6 +115,12 @@ impl Journal {
 
     fn path(&self, id: &str) -> PathBuf {
         self.folder.join(format!("{id}{ENDING}"))
+    }
+}
+
+impl Records for Journal {
+    fn of(&self, id: &str) -> Result<Option<Record>, Error> {
+        self.read(id)
     }
 }
 

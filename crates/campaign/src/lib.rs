@@ -13,6 +13,7 @@
 //! The journal alone is the truth: a run is done if its file is there. Tables are made from it in the order of the plan, so that
 //! they have the same bytes with one worker or many, in any order, after any number of ends by force.
 
+pub mod clock;
 pub mod compute;
 pub mod coupled;
 pub mod error;
@@ -33,6 +34,7 @@ pub mod pool;
 pub mod record;
 pub mod refine;
 pub mod request;
+pub mod runner;
 pub mod shard;
 pub mod slurm;
 pub mod speeds;
@@ -44,5 +46,6 @@ pub use error::Error;
 pub use folder::Folder;
 pub use journal::Journal;
 pub use plan::{Plan, Run, Way};
-pub use record::{Envelope, Record};
+pub use record::{Envelope, Record, Records};
+pub use runner::Runner;
 pub use shard::Shard;

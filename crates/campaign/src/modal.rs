@@ -2,15 +2,16 @@
 //!
 //! A bridge is brought into its modes once a variant; a train's load on them is made once a batch.
 
+use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
-use std::time::Instant;
 
 use ttb_assessment::filter::RAW;
 use ttb_assessment::{Filter, Peak, PlaceKind, Statistic};
 use ttb_passage::{Extreme, Heading, ModalBridge, Output, Passage, PlaceKind as Kind, Quantity, Response, Settings};
 use ttb_trains::{Axle, ForceTrain};
 
+use crate::clock::Since;
 use crate::compute::{Compute, Computed};
 use crate::coupled::Source;
 use crate::plan::{Load, Plan, Run, Train};
@@ -28,15 +29,23 @@ pub struct Modal<'a> {
     source: &'a Source,
     /// Behind which acceleration is looked at, beside raw.
     filters: Vec<Filter>,
-    /// By variant.
-    bridges: Mutex<Vec<Option<Made>>>,
+    bridges: Kept,
 }
+
+/// Bridges that were made, by variant; a clone is the same.
+#[derive(Clone, Default)]
+pub struct Kept(Arc<Mutex<BTreeMap<usize, Made>>>);
 
 impl<'a> Modal<'a> {
     /// Of a plan. `filters` are those of the deck's acceleration.
     pub fn new(plan: &'a Plan, source: &'a Source, filters: Vec<Filter>) -> Self {
-        let bridges = Mutex::new(vec![None; plan.variants.len()]);
-        Self { plan, source, filters, bridges }
+        Self { plan, source, filters, bridges: Kept::default() }
+    }
+
+    /// With bridges that were made for the same plan before.
+    #[must_use]
+    pub fn with(self, bridges: Kept) -> Self {
+        Self { bridges, ..self }
     }
 
     /// The bridge of a variant; who comes while it is made waits for it.
@@ -44,13 +53,12 @@ impl<'a> Modal<'a> {
     /// # Errors
     /// It cannot be made, a sentence.
     pub fn bridge(&self, variant: usize) -> Result<Arc<ModalBridge>, String> {
-        let mut bridges = self.bridges.lock().unwrap_or_else(PoisonError::into_inner);
-        let Some(place) = bridges.get_mut(variant) else { return Err("there is no such variant".into()) };
-        place.get_or_insert_with(|| self.make(variant)).clone()
+        let mut bridges = self.bridges.0.lock().unwrap_or_else(PoisonError::into_inner);
+        bridges.entry(variant).or_insert_with(|| self.make(variant)).clone()
     }
 
     fn make(&self, variant: usize) -> Result<Arc<ModalBridge>, String> {
-        let variant = &self.plan.variants[variant];
+        let Some(variant) = self.plan.variants.get(variant) else { return Err("there is no such variant".into()) };
         let checked = self.source.varied(variant).map_err(|problems| problems.to_string())?;
         let (stiffness, mass) = (variant.stiffness_factor, variant.mass_factor);
         let settings = Settings { stiffness, mass, forces: self.plan.forces, ..Settings::default() };
@@ -67,21 +75,21 @@ impl<'a> Modal<'a> {
             (Err(error), _) => return out.extend(fail(&error)),
             (_, None) => return out.extend(fail("the modal way takes axle loads only")),
         };
-        let begin = Instant::now();
+        let begin = Since::now();
         let passage = Passage::new(&bridge, &train, Heading::Forward, None);
         // What all share counts for each.
-        let share = begin.elapsed().as_secs_f64() / runs.len() as f64;
+        let share = begin.seconds() / runs.len() as f64;
         for run in runs {
             if stop.load(Ordering::Relaxed) {
                 out.push(Computed::Stopped);
                 continue;
             }
-            let begin = Instant::now();
+            let begin = Since::now();
             let record = match run.speed().filter(|speed| *speed > 0.0) {
                 Some(speed) => self.record(run, &passage, speed),
                 None => Record::failed(&run.id, "axle loads need a speed: give speeds", 0.0),
             };
-            out.push(Computed::Done(Record { seconds: share + begin.elapsed().as_secs_f64(), ..record }));
+            out.push(Computed::Done(Record { seconds: share + begin.seconds(), ..record }));
         }
     }
 

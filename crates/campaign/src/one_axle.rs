@@ -3,9 +3,9 @@
 //!
 //! Runs are computed speed by speed, all trains of one speed together, so that a speed costs one passage.
 
+use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
-use std::time::Instant;
 
 use ttb_assessment::filter::RAW;
 use ttb_assessment::{Facts, Filter, Peak, PlaceKind, Statistic};
@@ -14,6 +14,7 @@ use ttb_passage::own::OwnBridge;
 use ttb_passage::{Extreme, Quantity};
 use ttb_scenario::deck::Deck;
 
+use crate::clock::Since;
 use crate::compute::{Compute, Computed};
 use crate::coupled::loads::free_vibration;
 use crate::coupled::{Source, vehicles};
@@ -44,25 +45,33 @@ pub struct OneAxle<'a> {
     filters: Vec<Filter>,
     /// First to last axle of the longest train, m.
     longest: f64,
-    bridges: Mutex<Vec<Option<Made>>>,
+    bridges: Kept,
 }
+
+/// Bridges that were made, by variant; a clone is the same.
+#[derive(Clone, Default)]
+pub struct Kept(Arc<Mutex<BTreeMap<usize, Made>>>);
 
 impl<'a> OneAxle<'a> {
     /// Of a plan. `filters` are those of the deck's acceleration.
     pub fn new(plan: &'a Plan, source: &'a Source, facts: &'a Facts, filters: Vec<Filter>) -> Self {
         let longest = plan.trains.iter().filter_map(Train::length).fold(0.0, f64::max);
-        let bridges = Mutex::new(plan.variants.iter().map(|_| None).collect());
-        Self { plan, source, facts, filters, longest, bridges }
+        Self { plan, source, facts, filters, longest, bridges: Kept::default() }
+    }
+
+    /// With bridges that were made for the same plan before.
+    #[must_use]
+    pub fn with(self, bridges: Kept) -> Self {
+        Self { bridges, ..self }
     }
 
     fn bridge(&self, variant: usize) -> Result<Arc<Known>, String> {
-        let mut bridges = self.bridges.lock().unwrap_or_else(PoisonError::into_inner);
-        let Some(place) = bridges.get_mut(variant) else { return Err("there is no such variant".into()) };
-        place.get_or_insert_with(|| self.make(variant).map(Arc::new)).clone()
+        let mut bridges = self.bridges.0.lock().unwrap_or_else(PoisonError::into_inner);
+        bridges.entry(variant).or_insert_with(|| self.make(variant).map(Arc::new)).clone()
     }
 
     fn make(&self, variant: usize) -> Result<Known, String> {
-        let variant = &self.plan.variants[variant];
+        let Some(variant) = self.plan.variants.get(variant) else { return Err("there is no such variant".into()) };
         let checked = self.source.varied(variant).map_err(|problems| problems.to_string())?;
         let first = self.facts.n0_hz.unwrap_or(0.0);
         let highest = MARGIN * 30.0_f64.max(1.5 * first).max(self.facts.third_mode_hz.unwrap_or(0.0));
@@ -86,21 +95,21 @@ impl<'a> OneAxle<'a> {
     }
 
     fn at_one_speed(&self, runs: &[Run], stop: &AtomicBool, out: &mut Vec<Computed>) {
-        let begin = Instant::now();
+        let begin = Since::now();
         let Some(first) = runs.first() else { return };
         if stop.load(Ordering::Relaxed) {
             return out.extend(runs.iter().map(|_| Computed::Stopped));
         }
         let found = self.bridge(first.variant).and_then(|known| Ok((self.unit(&known, first)?, known)));
         // What all share counts for each.
-        let share = begin.elapsed().as_secs_f64() / runs.len() as f64;
+        let share = begin.seconds() / runs.len() as f64;
         for run in runs {
-            let begin = Instant::now();
+            let begin = Since::now();
             let record = match &found {
                 Ok((unit, known)) => self.record(run, unit, known),
                 Err(error) => Record::failed(&run.id, error.as_str(), 0.0),
             };
-            out.push(Computed::Done(Record { seconds: share + begin.elapsed().as_secs_f64(), ..record }));
+            out.push(Computed::Done(Record { seconds: share + begin.seconds(), ..record }));
         }
     }
 

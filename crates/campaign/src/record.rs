@@ -1,9 +1,12 @@
 //! What a run leaves: reduced values, or why it failed.
 
 use std::borrow::Cow;
+use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 use ttb_assessment::{Peak, Statistic};
+
+use crate::error::Error;
 
 /// Format of the journal's files; another one is not read.
 pub const FORMAT: u32 = 1;
@@ -32,6 +35,22 @@ pub struct Record {
     /// Extremes along the deck.
     #[serde(default)]
     pub envelopes: Vec<Envelope>,
+}
+
+/// Where records are kept.
+pub trait Records {
+    /// The record of a run; `None` if there is none.
+    ///
+    /// # Errors
+    /// It is there and cannot be read.
+    fn of(&self, id: &str) -> Result<Option<Record>, Error>;
+}
+
+/// In memory, by the ids of the runs.
+impl Records for BTreeMap<String, Record> {
+    fn of(&self, id: &str) -> Result<Option<Record>, Error> {
+        Ok(self.get(id).cloned())
+    }
 }
 
 /// Least and greatest value of a quantity at every point of the deck.

@@ -26,6 +26,15 @@ const MOST: usize = 40;
 /// A quantity that is refined, with the label of its filter.
 pub type Key = (String, String);
 
+/// What is refined, beside the plan.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Refined {
+    /// Quantities.
+    pub keys: Vec<Key>,
+    /// Speeds of resonance of every train, km/h.
+    pub resonances: Vec<Vec<f64>>,
+}
+
 /// Values of the runs that are known, by id; `None` of one that failed.
 #[derive(Clone, Debug, Default)]
 pub struct Known(BTreeMap<String, Option<Vec<Option<f64>>>>);

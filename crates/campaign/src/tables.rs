@@ -14,9 +14,8 @@ use std::path::{Path, PathBuf};
 use ttb_assessment::Peak;
 
 use crate::error::Error;
-use crate::journal::Journal;
 use crate::plan::{Load, Plan, Rail, Run};
-use crate::record::Record;
+use crate::record::{Record, Records};
 
 /// Names of the tables that are the same however the runs were computed.
 pub const TABLES: [&str; 3] = ["runs.csv", "peaks.csv", "envelope.csv"];
@@ -83,13 +82,55 @@ pub fn rail(load: &Load, rail: Rail, own_is_smooth: bool) -> &'static str {
 ///
 /// # Errors
 /// A file cannot be read or written.
-pub fn write(folder: &Path, plan: &Plan, runs: &[Run], journal: &Journal, own_is_smooth: bool) -> Result<(), Error> {
-    let mut of_runs = Table::create(&folder.join(TABLES[0]), RUNS.into_iter())?;
-    let mut of_peaks = Table::create(&folder.join(TABLES[1]), PEAKS.into_iter())?;
-    let mut of_envelopes = Table::create(&folder.join(TABLES[2]), ENVELOPE.into_iter())?;
-    let mut of_times = Table::create(&folder.join(TIMINGS), ["run_id", "seconds"].into_iter())?;
+pub fn write(
+    folder: &Path,
+    plan: &Plan,
+    runs: &[Run],
+    records: &dyn Records,
+    own_is_smooth: bool,
+) -> Result<(), Error> {
+    let mut paths = Vec::new();
+    for name in TABLES.into_iter().chain([TIMINGS]) {
+        let (path, part) = (folder.join(name), folder.join(format!("{name}.part")));
+        paths.push((File::create(&part).map_err(Error::io(&part))?, path, part));
+    }
+    let files = paths.iter().map(|(file, path, _)| Table::new(path, BufWriter::new(file)));
+    let mut tables: Vec<_> = files.collect();
+    fill(&mut tables, plan, runs, records, own_is_smooth)?;
+    tables.into_iter().try_for_each(|table| table.finish().map(drop))?;
+    paths.iter().try_for_each(|(_, path, part)| fs::rename(part, path).map_err(Error::io(path)))
+}
+
+/// The same tables as texts, in the order of [`TABLES`].
+///
+/// # Errors
+/// A record cannot be read.
+pub fn texts(plan: &Plan, runs: &[Run], records: &dyn Records, own_is_smooth: bool) -> Result<[Vec<u8>; 3], Error> {
+    let mut tables: Vec<_> =
+        TABLES.into_iter().chain([TIMINGS]).map(|name| Table::new(Path::new(name), Vec::new())).collect();
+    fill(&mut tables, plan, runs, records, own_is_smooth)?;
+    let mut texts = [const { Vec::new() }; 3];
+    for (text, table) in texts.iter_mut().zip(tables) {
+        *text = table.finish()?;
+    }
+    Ok(texts)
+}
+
+/// Headers and rows of the tables and of the times.
+fn fill<W: Write>(
+    tables: &mut [Table<W>],
+    plan: &Plan,
+    runs: &[Run],
+    records: &dyn Records,
+    own_is_smooth: bool,
+) -> Result<(), Error> {
+    let [of_runs, of_peaks, of_envelopes, of_times] = tables else { return Ok(()) };
+    of_runs.row(&RUNS)?;
+    of_peaks.row(&PEAKS)?;
+    of_envelopes.row(&ENVELOPE)?;
+    of_times.row(&["run_id", "seconds"])?;
     for run in runs {
-        let Some(record) = journal.read(&run.id)? else { continue };
+        let Some(record) = records.of(&run.id)? else { continue };
         let named = Named::of(plan, run);
         of_runs.row(&run_row(plan, run, &named, &record, own_is_smooth))?;
         for peak in &record.peaks {
@@ -104,7 +145,7 @@ pub fn write(folder: &Path, plan: &Plan, runs: &[Run], journal: &Journal, own_is
         }
         of_times.row(&[run.id.as_str(), &format!("{:.6}", record.seconds)])?;
     }
-    [of_runs, of_peaks, of_envelopes, of_times].into_iter().try_for_each(Table::finish)
+    Ok(())
 }
 
 /// How a run is named in tables.
@@ -177,22 +218,15 @@ pub fn optional(value: Option<f64>) -> String {
     value.map_or_else(String::new, |value| value.to_string())
 }
 
-/// A table that is whole or not there.
-struct Table {
+/// A table as it is written.
+struct Table<W: Write> {
     path: PathBuf,
-    part: PathBuf,
-    rows: csv::Writer<BufWriter<File>>,
+    rows: csv::Writer<W>,
 }
 
-impl Table {
-    fn create(path: &Path, header: impl Iterator<Item = &'static str>) -> Result<Self, Error> {
-        let mut part = path.as_os_str().to_os_string();
-        part.push(".part");
-        let part = PathBuf::from(part);
-        let file = File::create(&part).map_err(Error::io(&part))?;
-        let mut table = Self { path: path.into(), part, rows: csv::Writer::from_writer(BufWriter::new(file)) };
-        table.row(&header.collect::<Vec<_>>())?;
-        Ok(table)
+impl<W: Write> Table<W> {
+    fn new(path: &Path, into: W) -> Self {
+        Self { path: path.into(), rows: csv::Writer::from_writer(into) }
     }
 
     fn row<T: AsRef<[u8]>>(&mut self, row: &[T]) -> Result<(), Error> {
@@ -200,9 +234,12 @@ impl Table {
         written.map_err(std::io::Error::from).map_err(Error::io(&self.path))
     }
 
-    fn finish(self) -> Result<(), Error> {
-        let inner = self.rows.into_inner().map_err(|error| Error::io(&self.path)(error.into_error()));
-        inner?.flush().map_err(Error::io(&self.path))?;
-        fs::rename(&self.part, &self.path).map_err(Error::io(&self.path))
+    /// What it was written into, all of it there.
+    fn finish(self) -> Result<W, Error> {
+        let failed = Error::io(&self.path);
+        match self.rows.into_inner() {
+            Ok(mut inner) => inner.flush().map_err(failed).map(|()| inner),
+            Err(error) => Err(failed(error.into_error())),
+        }
     }
 }

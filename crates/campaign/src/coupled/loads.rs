@@ -2,7 +2,6 @@
 
 use std::sync::atomic::AtomicBool;
 use std::sync::{Arc, Mutex, PoisonError};
-use std::time::Instant;
 
 use ttb_assessment::{Criteria, Facts, Filter, Histories};
 use ttb_scenario::Checked;
@@ -14,6 +13,7 @@ use ttb_session::Table;
 use super::forces::{Passage, on_points};
 use super::vehicles::add_points;
 use super::{Source, rows};
+use crate::clock::Since;
 use crate::compute::{Compute, Computed};
 use crate::history::History;
 use crate::plan::{Load, Plan, Run};
@@ -60,7 +60,7 @@ impl Loads<'_> {
     /// # Errors
     /// Why it failed, a sentence.
     pub fn run(&self, run: &Run, stop: &AtomicBool) -> Result<Option<(Record, History)>, String> {
-        let begin = Instant::now();
+        let begin = Since::now();
         let Some((checked, table)) = self.table(run, stop)? else { return Ok(None) };
         let histories: Histories = rows::histories(&table, &checked, [0.0, checked.bridge.end]);
         let record = Record {
@@ -71,21 +71,25 @@ impl Loads<'_> {
             modes: checked.bridge.modes,
             peaks: rows::peaks(&histories, self.criteria, self.facts),
             envelopes: rows::envelopes(&histories, &self.judged),
-            seconds: begin.elapsed().as_secs_f64(),
+            seconds: begin.seconds(),
         };
         Ok(Some((record, rows::kept(table, &checked))))
     }
 
     fn one(&self, run: &Run, stop: &AtomicBool) -> Computed {
-        let begin = Instant::now();
+        let begin = Since::now();
         match self.run(run, stop) {
             Ok(Some((record, _))) => Computed::Done(record),
             Ok(None) => Computed::Stopped,
-            Err(error) => Computed::Done(Record::failed(&run.id, error, begin.elapsed().as_secs_f64())),
+            Err(error) => Computed::Done(Record::failed(&run.id, error, begin.seconds())),
         }
     }
 
-    fn table(&self, run: &Run, stop: &AtomicBool) -> Result<Option<(Checked, Table)>, String> {
+    /// The scenario of a run, with points along the deck, and its histories; `None` if it was asked to stop.
+    ///
+    /// # Errors
+    /// Why it failed, a sentence.
+    pub fn table(&self, run: &Run, stop: &AtomicBool) -> Result<Option<(Checked, Table)>, String> {
         let variant = &self.plan.variants[run.variant];
         let mut checked = self.source.varied(variant).map_err(|problems| problems.to_string())?;
         let Load::Axles(axles) = &self.plan.trains[run.train].load else {

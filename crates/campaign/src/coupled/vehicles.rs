@@ -2,7 +2,6 @@
 
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::time::Instant;
 
 use ttb_assessment::{Criteria, Facts, Filter};
 use ttb_contract::ModelError;
@@ -14,6 +13,7 @@ use ttb_session::{Case, Column, Ended, Plan as Steps, RunError, Sides, Table};
 
 use super::rows::{self, ADDED};
 use super::{Shared, Source};
+use crate::clock::Since;
 use crate::compute::{Compute, Computed};
 use crate::history::History;
 use crate::plan::{Plan, Run, Variant};
@@ -47,8 +47,8 @@ impl Compute for Vehicles<'_> {
 
 impl Vehicles<'_> {
     fn one(&self, run: &Run, stop: &AtomicBool) -> Computed {
-        let begin = Instant::now();
-        let seconds = || begin.elapsed().as_secs_f64();
+        let begin = Since::now();
+        let seconds = || begin.seconds();
         match self.table(run, stop) {
             Err(error) => Computed::Done(Record::failed(&run.id, error, seconds())),
             Ok(None) => Computed::Stopped,
@@ -76,7 +76,11 @@ impl Vehicles<'_> {
         Ok(self.table(run, stop)?.map(|(checked, table)| rows::kept(table, &checked)))
     }
 
-    fn table(&self, run: &Run, stop: &AtomicBool) -> Result<Option<(Checked, Table)>, String> {
+    /// The scenario of a run, with points along the deck, and its histories; `None` if it was asked to stop.
+    ///
+    /// # Errors
+    /// Why it failed, a sentence.
+    pub fn table(&self, run: &Run, stop: &AtomicBool) -> Result<Option<(Checked, Table)>, String> {
         let mut checked = self.source.of_run(self.plan, run).map_err(|problems| problems.to_string())?;
         add_points(&mut checked);
         let mut prepared = self.shared.take(&checked).map_err(|error| error.to_string())?;

@@ -4,7 +4,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use crate::common::{self, plan};
 use ttb_assessment::Peak;
-use ttb_campaign::folder::Refined;
+use ttb_campaign::refine::Refined;
 use ttb_campaign::{Compute, Computed, Folder, Record, Run, Shard};
 
 /// Where the resonances of the two trains are, km/h.

@@ -6,13 +6,12 @@ use ttb_campaign::expand::{self, Expanded};
 use ttb_campaign::plan::Plan;
 use ttb_campaign::request::Request;
 use ttb_campaign::status::Status;
-use ttb_campaign::{Folder, Shard, facts};
+use ttb_campaign::{Folder, Runner, Shard, facts};
 use ttb_passage::{ModalBridge, Refused, Settings};
 
 use super::estimate::estimate;
 use super::outcome;
 use super::progress::Told;
-use super::runner::Runner;
 use crate::cli::Common;
 use crate::error::Error;
 use crate::results::folder::Folder as Claimed;

@@ -3,10 +3,9 @@
 use std::sync::atomic::AtomicBool;
 
 use ttb_campaign::plan::Plan;
-use ttb_campaign::{Compute, Computed, Shard};
+use ttb_campaign::{Compute, Computed, Runner, Shard};
 
 use super::progress::duration;
-use super::runner::Runner;
 use crate::cli::Common;
 use crate::error::Error;
 use crate::signals::Stop;

@@ -4,7 +4,6 @@ pub mod compute;
 mod estimate;
 mod outcome;
 mod progress;
-mod runner;
 
 use std::path::Path;
 

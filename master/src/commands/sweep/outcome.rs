@@ -9,10 +9,9 @@ use ttb_campaign::governing::{self, Compared, Governing};
 use ttb_campaign::plan::{Load, Plan};
 use ttb_campaign::slurm::quoted;
 use ttb_campaign::status::Status;
-use ttb_campaign::{Folder, Run, Shard, Way};
+use ttb_campaign::{Folder, Run, Runner, Shard, Way};
 use ttb_scenario::spec::Profile;
 
-use super::runner::Runner;
 use crate::error::Error;
 use crate::files::write_json;
 use crate::pictures::speeds::{Line, Speeds};

@@ -1,22 +1,24 @@
 //! What computes the runs of a plan: one of the ways, by the plan and the train.
 
+use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
 use ttb_assessment::criterion::DEFAULT;
 use ttb_assessment::filter::RAW;
 use ttb_assessment::peak::quantity::{DECK_ACCELERATION, DECK_DISPLACEMENT};
 use ttb_assessment::{Criteria, Facts, Filter};
-use ttb_campaign::coupled::{Bridges, Loads, Shared, Source, Vehicles};
-use ttb_campaign::expand::Expanded;
-use ttb_campaign::folder::Refined;
-use ttb_campaign::history::History;
-use ttb_campaign::modal::{Modal, force_train};
-use ttb_campaign::one_axle::OneAxle;
-use ttb_campaign::plan::Load;
-use ttb_campaign::{Compute, Computed, Plan, Record, Run, Way};
 use ttb_trains::Signature;
 
+use crate::compute::{Compute, Computed};
+use crate::coupled::{Bridges, Loads, Shared, Source, Vehicles};
 use crate::error::Error;
+use crate::expand::Expanded;
+use crate::history::History;
+use crate::modal::{self, Modal, force_train};
+use crate::one_axle::{self, OneAxle};
+use crate::plan::{Load, Plan, Run, Way};
+use crate::record::Record;
+use crate::refine::Refined;
 
 /// Range of wavelengths in which resonances are sought, m.
 const WAVELENGTHS: [f64; 2] = [4.5, 40.0];
@@ -32,8 +34,16 @@ pub struct Runner<'a> {
     judged: Filter,
     modal: Modal<'a>,
     one_axle: OneAxle<'a>,
-    shared: Shared,
-    bridges: Bridges,
+    kept: Kept,
+}
+
+/// Tracks and bridges that were prepared for a plan; a clone is the same.
+#[derive(Clone, Default)]
+pub struct Kept {
+    modal: modal::Kept,
+    one_axle: one_axle::Kept,
+    shared: Arc<Shared>,
+    bridges: Arc<Bridges>,
 }
 
 impl<'a> Runner<'a> {
@@ -42,6 +52,14 @@ impl<'a> Runner<'a> {
     /// # Errors
     /// The way is not known here.
     pub fn new(expanded: &'a Expanded) -> Result<Self, Error> {
+        Self::with(expanded, Kept::default())
+    }
+
+    /// Of a plan for which something may have been prepared before.
+    ///
+    /// # Errors
+    /// As [`Self::new`].
+    pub fn with(expanded: &'a Expanded, kept: Kept) -> Result<Self, Error> {
         let Expanded { plan, source, facts, .. } = expanded;
         let criteria = Criteria::bundled(DEFAULT);
         let told = |problems: Vec<_>| problems.iter().map(ToString::to_string).collect::<Vec<String>>().join("\n");
@@ -54,10 +72,9 @@ impl<'a> Runner<'a> {
             }
         }
         let judged = filters.first().copied().unwrap_or(Filter::Raw);
-        let one_axle = OneAxle::new(plan, source, facts, filters.clone());
-        let modal = Modal::new(plan, source, filters);
-        let (shared, bridges) = (Shared::default(), Bridges::default());
-        Ok(Self { plan, source, facts, criteria, judged, modal, one_axle, shared, bridges })
+        let one_axle = OneAxle::new(plan, source, facts, filters.clone()).with(kept.one_axle.clone());
+        let modal = Modal::new(plan, source, filters).with(kept.modal.clone());
+        Ok(Self { plan, source, facts, criteria, judged, modal, one_axle, kept })
     }
 
     /// What is refined.
@@ -93,14 +110,16 @@ impl<'a> Runner<'a> {
         }
     }
 
-    fn loads(&self, step: Option<f64>) -> Loads<'_> {
-        let Self { plan, source, facts, criteria, judged, bridges, .. } = self;
-        Loads { plan, source, criteria, facts, judged: *judged, step, bridges }
+    /// Runs of axle loads step by step, with another step than the scenario's.
+    pub fn loads(&self, step: Option<f64>) -> Loads<'_> {
+        let Self { plan, source, facts, criteria, judged, kept, .. } = self;
+        Loads { plan, source, criteria, facts, judged: *judged, step, bridges: &kept.bridges }
     }
 
-    fn vehicles(&self) -> Vehicles<'_> {
-        let Self { plan, source, facts, criteria, judged, shared, .. } = self;
-        Vehicles { plan, source, criteria, facts, judged: *judged, shared }
+    /// Runs of vehicles.
+    pub fn vehicles(&self) -> Vehicles<'_> {
+        let Self { plan, source, facts, criteria, judged, kept, .. } = self;
+        Vehicles { plan, source, criteria, facts, judged: *judged, shared: &kept.shared }
     }
 
     fn one_by_one(&self, run: &Run, stop: &AtomicBool) -> Vec<Computed> {
