@@ -138,6 +138,16 @@ impl From<ttb_campaign::Error> for Error {
     }
 }
 
+impl From<ttb_dossier::Error> for Error {
+    fn from(error: ttb_dossier::Error) -> Self {
+        match error {
+            ttb_dossier::Error::Input(text) => Self::Input(text),
+            ttb_dossier::Error::Io { path, source } => Self::Io { path: path.into(), source },
+            ttb_dossier::Error::Report(error) => Self::Pack(error.to_string()),
+        }
+    }
+}
+
 impl From<RunError> for Error {
     fn from(error: RunError) -> Self {
         match error {

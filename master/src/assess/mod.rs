@@ -1,8 +1,6 @@
 //! From runs to verdicts: what is watched during a run, the tables of a folder, limits and facts.
 
-pub mod folder;
 pub mod limits;
-pub mod report;
 pub mod run;
 pub mod tables;
 pub mod watch;

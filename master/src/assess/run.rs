@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
-use serde::{Deserialize, Serialize};
-use ttb_assessment::{Basis, Criteria, Facts, Histories, Loads, Missing, Rail, Run, reduce};
+use ttb_assessment::{Basis, Criteria, Facts, Histories, Loads, Rail, Run, reduce};
+use ttb_dossier::folder::{Assessment, FILE};
 use ttb_scenario::Checked;
 use ttb_scenario::spec::Profile;
 use ttb_scenario::types::{CarChoice, Speed};
@@ -11,22 +11,6 @@ use ttb_scenario::types::{CarChoice, Speed};
 use super::tables;
 use crate::error::Error;
 use crate::files;
-
-/// Name of the file beside the tables.
-pub const FILE: &str = "assessment.json";
-
-/// What a report must know that is in no table.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Assessment {
-    /// For people.
-    pub title: String,
-    /// Bridge and track.
-    pub facts: Facts,
-    /// Limits files that the filters were made for.
-    pub limits: Vec<String>,
-    /// What could not be made.
-    pub missing: Vec<Missing>,
-}
 
 /// What a run is for its tables.
 pub struct About<'a> {

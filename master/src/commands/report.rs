@@ -1,12 +1,14 @@
 //! `ttb report`: judges the results of a folder and writes the report.
 
 use std::path::Path;
+use std::time::{SystemTime, UNIX_EPOCH};
 
 use ttb_assessment::{Status, Verdict, Verdicts, judge};
+use ttb_dossier::{Opened, page};
+use ttb_model_description::Date;
 use ttb_report::number::{beside, readable, short};
 
-use crate::assess::folder::Opened;
-use crate::assess::{limits, report};
+use crate::assess::limits;
 use crate::cli::Report;
 use crate::error::Error;
 use crate::files;
@@ -21,7 +23,7 @@ pub fn report(arguments: &Report) -> Result<(), Error> {
     let criteria = limits::load(names)?;
     let verdicts = judge(&criteria, &opened.assessment.facts, &opened.results);
     files::write_json(&arguments.folder.join(VERDICTS), &verdicts)?;
-    let page = report::page(&opened, &verdicts, &criteria.people)?;
+    let page = page::page(&opened, &verdicts, &criteria.people, date()?)?;
     let path = arguments.output.clone().unwrap_or_else(|| arguments.folder.join("report.html"));
     files::write(&path, page.as_bytes())?;
     if !arguments.quiet {
@@ -31,6 +33,14 @@ pub fn report(arguments: &Report) -> Result<(), Error> {
         count @ 1.. if arguments.check => Err(Error::Exceeded { folder: arguments.folder.clone(), count }),
         _ => Ok(()),
     }
+}
+
+/// The day, or that of `SOURCE_DATE_EPOCH`.
+fn date() -> Result<String, Error> {
+    let asked = Date::asked_for().map_err(Error::Input)?;
+    let now = || SystemTime::now().duration_since(UNIX_EPOCH).ok().and_then(|now| Date::from_epoch(now.as_secs()));
+    let text = asked.or_else(now).map_or_else(String::new, Date::text);
+    Ok(text.split('T').next().unwrap_or_default().to_string())
 }
 
 /// A line for every verdict, then what was not judged.

@@ -4,15 +4,15 @@ mod bridge;
 mod histories;
 mod trains;
 
-use std::time::{SystemTime, UNIX_EPOCH};
-
 use serde_json::Value;
 use ttb_assessment::{Status, Verdict, Verdicts};
-use ttb_model_description::Date;
 use ttb_report::{Change, Envelope, Input, render};
 
-use super::folder::Opened;
 use crate::error::Error;
+use crate::folder::Opened;
+
+/// Extremes along the deck, of all runs.
+const ENVELOPE: &str = "envelope.csv";
 
 /// What the files of a folder hold.
 const FILES: [(&str, &str); 12] = [
@@ -30,8 +30,11 @@ const FILES: [(&str, &str); 12] = [
     ("coupled-check.json", "governing runs by the other way"),
 ];
 
-/// The page.
-pub fn page(opened: &Opened, verdicts: &Verdicts, people: &[[String; 2]]) -> Result<String, Error> {
+/// The page. `date` is the day that it names.
+///
+/// # Errors
+/// A table cannot be read; the template has a fault.
+pub fn page(opened: &Opened, verdicts: &Verdicts, people: &[[String; 2]], date: String) -> Result<String, Error> {
     let text = |value: &Value| value.as_str().map(str::to_string);
     let trains = trains::all(opened);
     let (bridge, modal) = bridge::of(opened);
@@ -43,14 +46,14 @@ pub fn page(opened: &Opened, verdicts: &Verdicts, people: &[[String; 2]]) -> Res
         .map(|words| words.iter().filter_map(Value::as_str).collect::<Vec<_>>().join(" "))
         .into_iter()
         .collect();
-    commands.push(format!("ttb report {}", opened.folder.display()));
-    let present = FILES.iter().filter(|(name, _)| opened.folder.join(name).is_file());
+    commands.push(format!("ttb report {}", opened.files.name()));
+    let present = FILES.iter().filter(|(name, _)| opened.files.has(name));
     let title = if opened.assessment.title.is_empty() { "Assessment".into() } else { opened.assessment.title.clone() };
     let input = Input {
         title,
         people: people.to_vec(),
         version: env!("CARGO_PKG_VERSION").into(),
-        date: date()?,
+        date,
         hash: summary
             .and_then(|summary| text(&summary["scenario_sha256"]))
             .or_else(|| opened.plan.as_ref().and_then(|plan| text(&plan["scenario_sha256"]))),
@@ -65,7 +68,7 @@ pub fn page(opened: &Opened, verdicts: &Verdicts, people: &[[String; 2]]) -> Res
         files: present.map(|(name, what)| [(*name).to_string(), (*what).to_string()]).collect(),
         warnings: opened.warnings.clone(),
     };
-    render(&input).map_err(|e| Error::Pack(e.to_string()))
+    Ok(render(&input)?)
 }
 
 /// The worst verdict with a limit, else the first with a run.
@@ -78,23 +81,13 @@ fn governing(verdicts: &Verdicts) -> Option<&Verdict> {
         .or_else(|| judged().next())
 }
 
-/// The day, or that of `SOURCE_DATE_EPOCH`.
-fn date() -> Result<String, Error> {
-    let asked = Date::asked_for().map_err(Error::Input)?;
-    let now = || SystemTime::now().duration_since(UNIX_EPOCH).ok().and_then(|now| Date::from_epoch(now.as_secs()));
-    let text = asked.or_else(now).map_or_else(String::new, Date::text);
-    Ok(text.split('T').next().unwrap_or_default().to_string())
-}
-
 /// Envelopes of the governing run.
 fn envelopes(opened: &Opened, governing: Option<&Verdict>) -> Result<Vec<Envelope>, Error> {
-    let path = opened.folder.join("envelope.csv");
-    let Some(run_id) = governing.and_then(|verdict| verdict.run_id.as_ref()).filter(|_| path.is_file()) else {
-        return Ok(Vec::new());
-    };
+    let Some(run_id) = governing.and_then(|verdict| verdict.run_id.as_ref()) else { return Ok(Vec::new()) };
+    let Some(content) = opened.files.open(ENVELOPE)? else { return Ok(Vec::new()) };
     let mut found: Vec<Envelope> = Vec::new();
-    let wrong = |e: csv::Error| Error::Input(format!("{}: {e}", path.display()));
-    let mut reader = csv::Reader::from_path(&path).map_err(wrong)?;
+    let wrong = |e: csv::Error| Error::Input(format!("{}: {e}", opened.files.shown(ENVELOPE)));
+    let mut reader = csv::Reader::from_reader(content);
     for row in reader.records() {
         let row = row.map_err(wrong)?;
         let field = |at: usize| row.get(at).unwrap_or_default();
@@ -134,8 +127,8 @@ fn changes(opened: &Opened, governing: Option<&Verdict>) -> Vec<Change> {
             None => changes.push(Change { what, before, after: peak.value, unit: verdict.unit.clone() }),
         }
     }
-    let path = opened.folder.join("coupled-check.json");
-    let read = std::fs::read_to_string(path).ok().and_then(|text| serde_json::from_str::<Value>(&text).ok());
+    let text = opened.files.text("coupled-check.json").ok().flatten();
+    let read = text.and_then(|text| serde_json::from_str::<Value>(&text).ok());
     for one in read.as_ref().and_then(Value::as_array).into_iter().flatten() {
         let (Some(sweep), Some(coupled), Some(quantity)) =
             (one["sweep"].as_f64(), one["coupled"].as_f64(), one["quantity"].as_str())

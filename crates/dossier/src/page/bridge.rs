@@ -7,7 +7,7 @@ use ttb_scenario::deck::Deck;
 use ttb_scenario::spec::StructureSpec;
 use ttb_scenario::types::Damping;
 
-use crate::assess::folder::Opened;
+use crate::folder::Opened;
 
 /// Modes that are shown at most, and points of a shape.
 const MODES: usize = 8;

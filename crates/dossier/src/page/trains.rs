@@ -4,7 +4,7 @@ use serde_json::Value;
 use ttb_report::Train;
 use ttb_trains::{Axle, ForceTrain, Signature};
 
-use crate::assess::folder::Opened;
+use crate::folder::Opened;
 
 /// Range of wavelengths, m, values in it, and the damping ratio of the signature.
 const RANGE: [f64; 2] = [4.5, 40.0];

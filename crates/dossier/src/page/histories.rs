@@ -6,7 +6,7 @@ use ttb_passage::{Heading, ModalBridge, Quantity};
 use ttb_report::{History, Passage, input::SpaceTime};
 
 use super::trains::force_train;
-use crate::assess::folder::Opened;
+use crate::folder::Opened;
 
 /// Rows of the picture over place and time.
 const TIMES: usize = 160;
@@ -59,7 +59,7 @@ fn of_run(opened: &Opened, verdict: &Verdict) -> Option<Passage> {
         ("car", _) => (format!("car[{number}].acceleration"), "m/s2"),
         _ => return None,
     };
-    let mut reader = csv::Reader::from_path(opened.folder.join("results.csv")).ok()?;
+    let mut reader = csv::Reader::from_reader(opened.files.open("results.csv").ok()??);
     let at = reader.headers().ok()?.iter().position(|name| name == column)?;
     let (mut time, mut raw) = (Vec::new(), Vec::new());
     for row in reader.records() {
