@@ -6,7 +6,7 @@ use clap::Parser;
 use ttb::cli::{Cli, Command};
 use ttb::commands::{
     accuracy, build, campaign, check, check_scenario, compare, export_ssp, generate, help_files, host, inspect,
-    inspect_bridge, interoperability, keeper, list, new, report, run, schema, signature, statics, sweep, view,
+    inspect_bridge, interoperability, keeper, list, new, report, run, schema, signature, statics, sweep, ui, view,
 };
 use ttb::error::Error;
 use ttb::signals::Stop;
@@ -58,6 +58,7 @@ fn execute(command: Command, stop: &Stop) -> Result<(), Error> {
         Command::Generate(arguments) => generate::generate(&arguments),
         Command::View(arguments) => view::view(&arguments, stop),
         Command::Schema { bridge, summary, verdicts } => schema::schema(bridge, summary, verdicts),
+        Command::Ui(arguments) => ui::ui(&arguments, stop),
         Command::List(arguments) => list::list(&arguments),
         Command::Signature(arguments) => signature::signature(&arguments),
         Command::Static(arguments) => statics::compute(&arguments),

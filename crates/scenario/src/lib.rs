@@ -37,6 +37,7 @@ pub use bundled::default_scenario_text;
 pub use load::{Checked, ForceLookUp, from_str, from_str_using, from_str_with, load, load_using, load_with, read_as};
 pub use placement::Chosen;
 pub use problem::{Problem, Problems, Warning, nearest};
+pub use ranges::{usual, usual_frequencies};
 pub use schema::{model_schema, schema};
 pub use settings::Setting;
 pub use ttb_contract::GRAVITY;

@@ -65,6 +65,18 @@ pub(crate) fn file(name: &str) -> &'static str {
 static RANGES: LazyLock<Vec<Range>> =
     LazyLock::new(|| serde_json::from_str::<Ranges>(file("ranges")).map(|all| all.ranges).unwrap_or_default());
 
+/// The data file of all ranges: quantity, name, unit, usual and possible values, source.
+#[must_use]
+pub fn usual() -> &'static str {
+    file("ranges")
+}
+
+/// The data file of the limits of a simple span's first frequency over its length.
+#[must_use]
+pub fn usual_frequencies() -> &'static str {
+    file("frequencies")
+}
+
 /// The range of a quantity.
 pub(crate) fn range(what: &str) -> Option<&'static Range> {
     RANGES.iter().find(|range| range.what == what)

@@ -80,16 +80,28 @@ pub fn read(path: &Path) -> Result<Vec<ForceTrain>, Problems> {
             found.note("", "the file of a train cannot be read", error);
             Vec::new()
         }
-        Ok(text) => {
-            let name = path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
-            if path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("json")) {
-                json(&text, &name, &mut found)
-            } else {
-                csv(&text, &name, &mut found)
-            }
-        }
+        Ok(text) => of_kind(&text, path, &mut found),
     };
     if found.problems.is_empty() { Ok(trains) } else { Err(Problems(found.problems)) }
+}
+
+/// Reads the text of a user's file that messages call `file`: CSV or JSON by its ending.
+///
+/// # Errors
+/// All problems of the text.
+pub fn read_text(text: &str, file: &str) -> Result<Vec<ForceTrain>, Problems> {
+    let mut found = Found { file, problems: Vec::new() };
+    let trains = of_kind(text, Path::new(file), &mut found);
+    if found.problems.is_empty() { Ok(trains) } else { Err(Problems(found.problems)) }
+}
+
+fn of_kind(text: &str, path: &Path, found: &mut Found) -> Vec<ForceTrain> {
+    let name = path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
+    if path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("json")) {
+        json(text, &name, found)
+    } else {
+        csv(text, &name, found)
+    }
 }
 
 /// Reads a text that comes with the program.

@@ -18,6 +18,7 @@ mod set;
 mod signature;
 mod statics;
 mod sweep;
+mod ui;
 mod view;
 
 use std::path::PathBuf;
@@ -41,6 +42,7 @@ pub use set::Set;
 pub use signature::Signature;
 pub use statics::Static;
 pub use sweep::{Common, Sweep, Way as SweepWay};
+pub use ui::Ui;
 pub use view::View;
 
 /// Train–track–bridge co-simulation.
@@ -143,6 +145,9 @@ pub enum Command {
     /// Write the bridge for ParaView: sag under its own weight, natural modes, the crossing of the train
     #[command(after_help = view::HELP)]
     View(View),
+    /// A page in the browser: bridge and train typed in, curves, verdict and report, computed by this program
+    #[command(after_help = ui::HELP)]
+    Ui(Ui),
     /// List what comes with the program: trains, cars, tracks, spectra, bridges, load models
     #[command(after_help = list::HELP)]
     List(List),

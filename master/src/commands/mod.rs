@@ -26,4 +26,5 @@ pub mod schema;
 pub mod signature;
 pub mod statics;
 pub mod sweep;
+pub mod ui;
 pub mod view;

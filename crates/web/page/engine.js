@@ -1,0 +1,190 @@
+// The engine behind one interface, in Web Workers or in the program that serves this page.
+//
+//   call(verb, request)             one answer; an Error with `problems` if there is none
+//   compute(asked, plan, tell, signal)   all runs of a plan; `tell` hears of every part; `signal` ends it
+
+export class Refused extends Error {
+  constructor(error, problems = []) {
+    super(error);
+    this.problems = problems;
+  }
+}
+
+function read(text) {
+  const value = JSON.parse(text);
+  if (value && value.error !== undefined) throw new Refused(value.error, value.problems);
+  return value;
+}
+
+const TRAPPED = "The computation ended before its time: most probably there was not enough memory. Take a smaller model, longer "
+  + "steps or fewer runs, or use the program ttb.";
+
+// One worker, made again after a trap or a cancellation.
+class Desk {
+  constructor(make) {
+    this.make = make;
+    this.waiting = new Map();
+    this.last = 0;
+  }
+
+  start() {
+    if (this.worker) return;
+    this.worker = this.make();
+    this.worker.onmessage = ({ data }) => {
+      const waits = this.waiting.get(data.id);
+      this.waiting.delete(data.id);
+      if (data.trap !== undefined) {
+        this.end(new Refused(`${TRAPPED} (${data.trap})`));
+        waits?.reject(new Refused(`${TRAPPED} (${data.trap})`));
+      } else {
+        waits?.resolve(data.text);
+      }
+    };
+    this.worker.onerror = (event) => { event.preventDefault(); this.end(new Refused(TRAPPED)); };
+  }
+
+  end(why) {
+    this.worker?.terminate();
+    this.worker = undefined;
+    for (const waits of this.waiting.values()) waits.reject(why);
+    this.waiting.clear();
+  }
+
+  text(verb, body) {
+    this.start();
+    const id = ++this.last;
+    return new Promise((resolve, reject) => {
+      this.waiting.set(id, { resolve, reject });
+      this.worker.postMessage({ id, verb, body });
+    });
+  }
+}
+
+class Workers {
+  static async connect() {
+    const [script, wasm] = await Promise.all([fetch("worker.js"), fetch("engine.wasm")]);
+    if (!script.ok || !wasm.ok) throw new Error("engine.wasm is not beside this page: build it with tools/web, or open the page by `ttb ui`");
+    const engine = new Workers();
+    // Kept, so that nothing is asked of the network after loading.
+    engine.module = await WebAssembly.compile(await wasm.arrayBuffer());
+    engine.script = URL.createObjectURL(new Blob([await script.text()], { type: "text/javascript" }));
+    engine.count = Math.max(1, Math.min(navigator.hardwareConcurrency || 2, 16));
+    engine.desk = new Desk(() => engine.make());
+    engine.pool = Array.from({ length: engine.count }, () => new Desk(() => engine.make()));
+    engine.name = `in this browser, ${engine.count} ${engine.count > 1 ? "workers" : "worker"}`;
+    return engine;
+  }
+
+  make() {
+    const worker = new Worker(this.script);
+    worker.postMessage({ module: this.module });
+    return worker;
+  }
+
+  async call(verb, request = {}) {
+    return read(await this.desk.text(verb, JSON.stringify(request)));
+  }
+
+  // As `call`, in a worker that a cancellation ends.
+  async callAt(place, verb, request, signal) {
+    const desk = this.pool[place];
+    const leave = () => desk.end(new DOMException("cancelled", "AbortError"));
+    signal.throwIfAborted();
+    signal.addEventListener("abort", leave, { once: true });
+    try {
+      return read(await desk.text(verb, JSON.stringify(request)));
+    } finally {
+      signal.removeEventListener("abort", leave);
+    }
+  }
+
+  long(verb, request, signal) {
+    return this.callAt(0, verb, request, signal);
+  }
+
+  places() {
+    return this.count;
+  }
+
+  perCall(batch) {
+    return batch;
+  }
+}
+
+class Program {
+  static async connect() {
+    const engine = new Program();
+    engine.name = "in the program ttb, all processors";
+    return engine;
+  }
+
+  async call(verb, request = {}, signal = undefined) {
+    const job = signal ? crypto.randomUUID() : "";
+    const leave = () => navigator.sendBeacon(`api/cancel?job=${job}`);
+    signal?.throwIfAborted();
+    signal?.addEventListener("abort", leave, { once: true });
+    const beat = signal && setInterval(() => fetch(`api/alive?job=${job}`, { method: "POST" }).catch(() => {}), 5000);
+    try {
+      const answer = await fetch(`api/${verb}?job=${job}`, { method: "POST", body: JSON.stringify(request), signal });
+      return read(await answer.text());
+    } catch (error) {
+      if (error instanceof TypeError) throw new Refused("The program ttb does not answer any more: it has ended, or was ended by Ctrl-C.");
+      throw error;
+    } finally {
+      clearInterval(beat);
+      signal?.removeEventListener("abort", leave);
+    }
+  }
+
+  callAt(place, verb, request, signal) {
+    return this.call(verb, request, signal);
+  }
+
+  long(verb, request, signal) {
+    return this.call(verb, request, signal);
+  }
+
+  // The program shares the runs of a call out to its processors itself.
+  places() {
+    return 1;
+  }
+
+  perCall(batch) {
+    return batch * 2 * (navigator.hardwareConcurrency || 2);
+  }
+}
+
+// Whoever serves the page says which engine there is.
+export async function connect() {
+  const native = document.querySelector("meta[name=engine]").content === "native";
+  return native ? Program.connect() : Workers.connect();
+}
+
+// Computes runs, shared out in parts; returns the records by id. Their order does not matter: tables follow the plan.
+async function share(engine, asked, runs, batch, records, tell, signal) {
+  const part = Math.max(1, Math.min(engine.perCall(batch), Math.ceil(runs.length / (2 * engine.places()))));
+  let next = 0;
+  const work = async (place) => {
+    while (next < runs.length) {
+      const mine = runs.slice(next, next + part);
+      next += mine.length;
+      for (const record of await engine.callAt(place, "runs", { asked, runs: mine }, signal)) records.set(record.run_id, record);
+      tell(records.size);
+    }
+  };
+  const places = Math.min(engine.places(), Math.ceil(runs.length / part));
+  await Promise.all(Array.from({ length: places }, (_, place) => work(place)));
+}
+
+export async function compute(engine, asked, plan, tell, signal) {
+  const records = new Map();
+  let total = plan.runs.length;
+  await share(engine, asked, plan.runs, plan.batch, records, (done) => tell(done, total), signal);
+  while (plan.refine) {
+    const more = await engine.long("more", { asked, records: [...records.values()] }, signal);
+    if (more.length === 0) break;
+    total += more.length;
+    await share(engine, asked, more, plan.batch, records, (done) => tell(done, total), signal);
+  }
+  return [...records.values()];
+}

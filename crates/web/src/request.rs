@@ -1,0 +1,125 @@
+//! What the page asks for: a scenario, and what is varied.
+
+use serde::{Deserialize, Serialize};
+use ttb_assessment::Criteria;
+use ttb_assessment::criterion::{self, DEFAULT};
+use ttb_campaign::list::Written;
+use ttb_campaign::plan::{Plan, Rail, Run};
+use ttb_campaign::request::{Choice, Request, Variants};
+
+use crate::fault::Fault;
+
+/// How the page's scenario is called in messages, plans and saved folders.
+pub const SCENARIO: &str = "scenario.json";
+
+/// A request. What it does not name is as in `ttb sweep`.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Asked {
+    /// Text of the scenario.
+    pub scenario: String,
+    /// Names of trains; none: the scenario's own.
+    pub trains: Vec<String>,
+    /// km/h; none: the scenario's own.
+    pub speeds: Option<Written>,
+    /// Step of a range of speeds.
+    pub step: Option<Written>,
+    /// Whether the largest values are sought between the speeds.
+    pub refine: bool,
+    /// Seeds of the irregularity.
+    pub seeds: Option<Written>,
+    /// `bounds`, or nothing.
+    pub variants: String,
+    /// How runs are computed.
+    pub way: Choice,
+}
+
+impl Asked {
+    /// As a campaign understands it.
+    pub fn request(&self) -> Request {
+        let variants =
+            if self.variants.is_empty() { Variants::default() } else { Variants::Word(self.variants.clone()) };
+        Request {
+            schema: None,
+            scenario: SCENARIO.into(),
+            set: Default::default(),
+            trains: self.trains.clone(),
+            speeds: self.speeds.clone(),
+            step: self.step.clone(),
+            refine: self.refine,
+            forces: false,
+            seeds: self.seeds.clone(),
+            variants,
+            axes: Default::default(),
+            way: self.way,
+        }
+    }
+}
+
+/// A run of a request, without its id.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Wanted {
+    /// Position of its train in the plan.
+    pub train: usize,
+    /// Position of its variant.
+    pub variant: usize,
+    /// Irregularity.
+    pub rail: Rail,
+    /// Speed, km/h; none: the scenario's own.
+    pub speed_km_h: Option<f64>,
+    /// Whether a refinement asked for it.
+    pub refined: bool,
+}
+
+impl From<&Run> for Wanted {
+    fn from(run: &Run) -> Self {
+        let Run { train, variant, rail, speed_km_h, refined, .. } = *run;
+        Self { train, variant, rail, speed_km_h, refined }
+    }
+}
+
+impl Wanted {
+    /// The run of a plan.
+    ///
+    /// # Errors
+    /// The plan has no such train or variant.
+    pub fn of(self, plan: &Plan) -> Result<Run, Fault> {
+        if self.train >= plan.trains.len() || self.variant >= plan.variants.len() {
+            return Err(Fault::new("the run belongs to another request: its train or variant is not in the plan"));
+        }
+        Ok(plan.run(self.train, self.variant, self.rail, self.speed_km_h, self.refined))
+    }
+}
+
+/// Limits that judge: bundled files by name, and a text of the user's own.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Limits {
+    /// Names of bundled files; none: the default set.
+    pub names: Vec<String>,
+    /// A limits file of the user.
+    pub own: Option<String>,
+}
+
+impl Limits {
+    /// The criteria, as `ttb report --limits` takes them.
+    ///
+    /// # Errors
+    /// All problems of names and text.
+    pub fn criteria(&self) -> Result<Criteria, Fault> {
+        let told = |problems: Vec<criterion::LimitsProblem>| {
+            Fault::new(problems.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n"))
+        };
+        let mut texts = Vec::new();
+        let default = DEFAULT.iter().map(|name| (*name).to_string()).collect();
+        for name in if self.names.is_empty() { &default } else { &self.names } {
+            match criterion::text(name) {
+                Some(text) => texts.push((name.as_str(), text)),
+                None => return Err(Criteria::bundled(&[name]).err().map_or_else(|| Fault::new(name), told)),
+            }
+        }
+        texts.extend(self.own.as_deref().map(|own| ("limits.json", own)));
+        Criteria::read(texts).map_err(told)
+    }
+}

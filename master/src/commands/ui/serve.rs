@@ -1,0 +1,147 @@
+//! Answers requests until a signal asks for the end.
+
+use std::io::{Cursor, Read};
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::time::Duration;
+
+use tiny_http::{Header, Method, Request as Http, Response, Server};
+use ttb_web::{Engine, page};
+
+use super::gate::{Asked, Gate, Request};
+use super::jobs::Jobs;
+use crate::signals::Stop;
+
+/// Threads that answer: long computations, and what a page asks meanwhile.
+const THREADS: usize = 6;
+/// Between two looks at the signals.
+const PAUSE: Duration = Duration::from_millis(100);
+/// Most bytes of a request.
+const MOST: u64 = 1 << 30;
+const JSON: &str = "application/json";
+
+/// What of the web a page may use: this program, and what the page makes itself.
+const POLICY: &str = "default-src 'none'; script-src 'self'; style-src 'self' 'unsafe-inline'; img-src 'self' data: blob:; \
+                      connect-src 'self'; worker-src blob:; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
+
+/// The page and the engine behind the gate.
+pub struct Service {
+    gate: Gate,
+    engine: Engine,
+    jobs: Jobs,
+    /// The page itself, which names the engine and the scenario.
+    index: String,
+    scenario: Option<String>,
+}
+
+struct Answer {
+    status: u16,
+    kind: &'static str,
+    body: Vec<u8>,
+}
+
+impl Service {
+    /// Behind a gate; with the text of a scenario that the page opens.
+    pub fn new(gate: Gate, engine: Engine, scenario: Option<String>) -> Self {
+        let index = page::FILES.iter().find(|(name, ..)| *name == "index.html").map_or("", |(.., text)| text);
+        let mut named = r#"<meta name="engine" content="native">"#.to_string();
+        if scenario.is_some() {
+            named += r#"<meta name="scenario" content="scenario.json">"#;
+        }
+        let index = index.replace(r#"<meta name="engine" content="wasm">"#, &named);
+        Self { gate, engine, jobs: Jobs::default(), index, scenario }
+    }
+
+    /// Answers until `stop` was asked.
+    pub fn serve(&self, server: &Server, stop: &Stop) {
+        std::thread::scope(|scope| {
+            for _ in 0..THREADS {
+                scope.spawn(|| self.answer_all(server, stop));
+            }
+            while stop.asked().is_none() {
+                std::thread::sleep(PAUSE);
+                self.jobs.sweep(false);
+            }
+            self.jobs.sweep(true);
+        });
+    }
+
+    fn answer_all(&self, server: &Server, stop: &Stop) {
+        while stop.asked().is_none() {
+            let Ok(Some(mut request)) = server.recv_timeout(PAUSE) else { continue };
+            let answer = self.answer(&mut request);
+            // A tab that was closed takes no answer; that is no error.
+            let _ = request.respond(with_headers(answer));
+        }
+    }
+
+    fn answer(&self, request: &mut Http) -> Answer {
+        let header = |name: &'static str| {
+            request.headers().iter().find(|header| header.field.equiv(name)).map(|header| header.value.as_str())
+        };
+        let posts = *request.method() == Method::Post;
+        if !posts && *request.method() != Method::Get {
+            return text(405, "files are got, verbs are posted");
+        }
+        let (host, origin, site) = (header("Host"), header("Origin"), header("Sec-Fetch-Site"));
+        match self.gate.pass(&Request { url: request.url(), posts, host, origin, site }) {
+            Err((status, why)) => text(status, why),
+            Ok(Asked::File(name)) => self.file(&name),
+            Ok(Asked::Verb(verb, job)) => {
+                let mut body = Vec::new();
+                match request.as_reader().take(MOST + 1).read_to_end(&mut body) {
+                    Ok(_) if body.len() as u64 <= MOST => self.verb(&verb, &job, &body),
+                    _ => text(413, "the request is too large, or its end is missing"),
+                }
+            }
+        }
+    }
+
+    fn file(&self, name: &str) -> Answer {
+        let answer = |kind, text: &str| Answer { status: 200, kind, body: text.as_bytes().to_vec() };
+        match (name, &self.scenario) {
+            ("index.html", _) => answer("text/html; charset=utf-8", &self.index),
+            ("scenario.json", Some(scenario)) => answer(JSON, scenario),
+            _ => match page::FILES.iter().find(|(known, ..)| *known == name) {
+                Some((_, kind, content)) => answer(kind, content),
+                None => text(404, "there is no such file"),
+            },
+        }
+    }
+
+    fn verb(&self, verb: &str, job: &str, body: &[u8]) -> Answer {
+        match verb {
+            "alive" => self.jobs.hear(job),
+            "cancel" => self.jobs.leave(job),
+            _ => {
+                let stop = self.jobs.begin(job);
+                let answered = catch_unwind(AssertUnwindSafe(|| self.engine.call(verb, body, &stop)));
+                self.jobs.end(job);
+                let failed =
+                    |_| br#"{"error":"the computation ended by an error of the program","problems":[]}"#.to_vec();
+                return Answer { status: 200, kind: JSON, body: answered.unwrap_or_else(failed) };
+            }
+        }
+        Answer { status: 200, kind: JSON, body: b"{}".to_vec() }
+    }
+}
+
+fn text(status: u16, why: &str) -> Answer {
+    Answer { status, kind: "text/plain; charset=utf-8", body: format!("{why}\n").into_bytes() }
+}
+
+fn with_headers(answer: Answer) -> Response<Cursor<Vec<u8>>> {
+    let headers = [
+        ("Content-Type", answer.kind),
+        ("Content-Security-Policy", POLICY),
+        ("Cache-Control", "no-store"),
+        ("Cross-Origin-Opener-Policy", "same-origin"),
+        ("Cross-Origin-Resource-Policy", "same-origin"),
+        ("Referrer-Policy", "no-referrer"),
+        ("X-Content-Type-Options", "nosniff"),
+    ];
+    let mut response = Response::from_data(answer.body).with_status_code(answer.status);
+    for header in headers.iter().filter_map(|(name, value)| Header::from_bytes(*name, *value).ok()) {
+        response.add_header(header);
+    }
+    response
+}

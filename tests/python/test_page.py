@@ -1,0 +1,231 @@
+"""The page in Chromium, by clicks and typing. Opt-in: it needs Chromium, and for the engine in the browser `tools/web`.
+
+TTB_BROWSER=1 python -m pytest test_page.py; pictures go into the folder $TTB_PICTURES, axe-core is taken from $TTB_AXE.
+"""
+
+import functools
+import http.server
+import json
+import os
+import threading
+import time
+from pathlib import Path
+
+import pytest
+from browser import CHROMIUM, Browser
+from conftest import REPOSITORY, program_path
+from test_ui import started
+
+pytestmark = pytest.mark.skipif(
+    not (os.environ.get("TTB_BROWSER") and CHROMIUM), reason="opt-in: TTB_BROWSER=1, Chromium"
+)
+DIST = REPOSITORY / "dist" / "web"
+
+
+class Quiet(http.server.SimpleHTTPRequestHandler):
+    def log_message(self, *_):
+        pass
+
+
+@pytest.fixture(scope="module", params=["wasm", "native"])
+def address(request):
+    """Where the page is, from a plain file server or from the program."""
+    if request.param == "native":
+        with started(program_path()) as page:
+            yield f"http://127.0.0.1:{page.port}{page.path}"
+        return
+    if not (DIST / "engine.wasm").is_file():
+        pytest.skip("tools/web has not built dist/web: the standard library for wasm32-unknown-unknown is needed")
+    server = http.server.ThreadingHTTPServer(("127.0.0.1", 0), functools.partial(Quiet, directory=DIST))
+    threading.Thread(target=server.serve_forever, daemon=True).start()
+    yield f"http://127.0.0.1:{server.server_port}/"
+    server.shutdown()
+
+
+@pytest.fixture
+def browser(tmp_path):
+    made = Browser(tmp_path / "profile")
+    yield made
+    made.close()
+
+
+@pytest.fixture
+def clean(browser, address):
+    """The page, opened; afterwards no complaint and no request to anywhere else."""
+    browser.open(address)
+    yield browser
+    assert browser.complaints() == []
+    own = tuple(address.split("/", 3)[:3])
+    outside = [url for url in browser.requests() if not url.startswith(("/".join(own), "blob:", "data:", "about:"))]
+    assert outside == []
+
+
+def computed(browser, seconds):
+    return browser.wait("document.documentElement.dataset.computed", seconds)
+
+
+def two_spans(browser):
+    """The typed fields of two spans of 24 m under HSLM-A, from an empty page."""
+    fields = {"#count": "2", "#length": "24", "#first_frequency": "4.5", "#mass": "15000", "#ratio": "1", "#speeds": "140:420:5"}
+    for selector, text in fields.items():
+        browser.type(selector, text)
+    return len(fields)
+
+
+def test_from_an_empty_page_to_curve_verdict_and_report(clean):
+    assert two_spans(clean) <= 8
+    clean.wait("document.querySelector('#sketch svg')")
+    begin = time.monotonic()
+    clean.click("#compute")
+    computed(clean, 30)
+    assert clean.evaluate("document.querySelectorAll('#charts svg').length") >= 2
+    assert "criteria" in clean.evaluate("document.querySelector('#verdict').textContent")
+    clean.evaluate("window.open = () => null")
+    clean.click("#report")
+    clean.wait("document.documentElement.dataset.report", 30)
+    took = time.monotonic() - begin
+    print(f"curve, verdict and report after {took:.2f} s")
+    assert clean.evaluate("document.querySelector('#done').textContent").startswith("570 runs")
+    assert took < float(os.environ.get("TTB_SECONDS", 3))
+
+
+def test_vehicles_on_an_irregular_track(clean):
+    clean.evaluate("document.querySelector('#example').value = 'ice3'; document.querySelector('#example').dispatchEvent(new Event('change'))")
+    clean.wait("document.querySelector('#sketch svg') && document.querySelector('#speeds').value === '200:300:5'")
+    begin = time.monotonic()
+    clean.click("#compute")
+    computed(clean, 200)
+    took = time.monotonic() - begin
+    print(f"21 speeds of an ICE 3 after {took:.1f} s")
+    assert clean.evaluate("document.querySelector('#done').textContent").startswith("21 runs")
+    assert took < float(os.environ.get("TTB_SECONDS", 30))
+    clean.click("#show")
+    clean.wait("document.querySelector('#film input[type=range]')", 60)
+    assert clean.evaluate("document.querySelectorAll('#film .chart svg').length") == 1
+
+
+def test_a_cancelled_computation_ends_at_once_and_the_page_goes_on(clean):
+    clean.evaluate("document.querySelector('#example').value = 'ice3'; document.querySelector('#example').dispatchEvent(new Event('change'))")
+    clean.wait("document.querySelector('#sketch svg') && document.querySelector('#speeds').value === '200:300:5'")
+    clean.click("#compute")
+    clean.wait("/ of 21 runs/.test(document.querySelector('#done').textContent)")
+    time.sleep(0.5)
+    clean.evaluate("document.querySelector('#cancel').addEventListener('click', () => { window.begun = performance.now(); }, true);"
+                   "new MutationObserver(() => { window.ended ??= performance.now(); }).observe(document.querySelector('#done'), { childList: true });"
+                   "window.ended = undefined")
+    clean.click("#cancel")
+    clean.wait("document.querySelector('#done').textContent === 'Cancelled.'", 10)
+    assert clean.evaluate("window.ended - window.begun") < 200
+    clean.type("#speeds", "200")
+    clean.click("#compute")
+    computed(clean, 60)
+
+
+def test_problems_stand_at_their_fields_in_the_words_of_the_check(clean, ttb, tmp_path):
+    two_spans(clean)
+    for selector, key, text, typed in [("#mass", "mass", "heavy", "heavy"), ("#length", "length", "24000", 24000)]:
+        clean.type(selector, text)
+        clean.wait(f"document.querySelector('{selector}').getAttribute('aria-invalid') === 'true'")
+        shown = clean.evaluate(f"document.querySelector('{selector}-told').textContent")
+        span = {"length": 24, "first_frequency": 4.5, "mass": 15000, key: typed}
+        scenario = {
+            "train": {"cars": ["ice3"], "speed": {"km_h": 140}},
+            "bridge": {
+                "structure": {"type": "beams", "spans": [span, span]},
+                "damping": {"type": "rayleigh", "ratio": 0.01},
+            },
+        }
+        path = tmp_path / "scenario.json"
+        path.write_text(json.dumps(scenario))
+        told = ttb("check-scenario", path, expect=2).stderr
+        assert shown and shown in told, (shown, told)
+        clean.type(selector, {"mass": "15000", "length": "24"}[key])
+    clean.type("#speeds", "420:140")
+    clean.click("#compute")
+    clean.wait("document.querySelector('#speeds').getAttribute('aria-invalid') === 'true'")
+    assert "must rise" in clean.evaluate("document.querySelector('#speeds-told').textContent")
+
+
+def test_the_whole_task_can_be_done_by_keyboard(clean):
+    def forward(to):
+        for _ in range(60):
+            clean.key("Tab")
+            if clean.focus() == to:
+                return
+        raise AssertionError(f"{to} is not reached by the Tab key")
+
+    for name, text in [("count", "2"), ("length", "24"), ("first_frequency", "4.5"), ("mass", "15000"), ("ratio", "1"), ("speeds", "200:240:20")]:
+        forward(name)
+        clean.key("a", modifiers=2)
+        clean.keys(text)
+    clean.key("Enter")
+    computed(clean, 60)
+    forward("report")
+    clean.evaluate("document.querySelector('#charts svg').focus()")
+    clean.key("ArrowRight")
+    assert "km/h" in clean.evaluate("document.querySelector('#charts .read').textContent")
+
+
+def test_a_link_and_a_file_bring_the_scenario_back(clean, address):
+    two_spans(clean)
+    clean.click("#link")
+    clean.wait("location.hash.startsWith('#s=')")
+    linked = clean.evaluate("location.href")
+    clean.send("Page.navigate", url="about:blank")
+    time.sleep(0.2)
+    clean.open(linked)
+    shown = clean.evaluate("['count', 'length', 'first_frequency', 'mass', 'ratio', 'speeds', 'trains'].map((id) => document.getElementById(id).value)")
+    assert shown == ["2", "24", "4.5", "15000", "1", "140:420:5", "hslm-a"]
+
+
+B25 = {
+    "train": {"cars": ["ice3"], "speed": {"km_h": 250}},
+    "bridge": {
+        "structure": {"type": "beams", "spans": [{"length": 25, "bending_stiffness": 30e9, "mass": 15000}]},
+        "damping": {"type": "modal", "ratio": 0.01, "modes": 3},
+    },
+}
+
+
+@pytest.mark.parametrize("case", ["r1", "b25", "default"])
+def test_the_browser_computes_the_peaks_of_the_program(clean, address, examples, case):
+    """To 1e-9 of the largest of a kind; sin, exp and the like are of another library."""
+    if case == "b25":
+        asked = {"scenario": json.dumps(B25), "trains": ["hslm-a3"], "speeds": "250"}
+    else:
+        asked = {"scenario": (examples / f"{case}.json").read_text(), "way": "coupled"}
+    script = "import('./engine.js').then((of) => of.connect()).then(async (engine) => {{ const asked = {}; const plan = await engine.call('plan', {{ asked }}); return engine.call('runs', {{ asked, runs: plan.runs }}); }})"
+    [mine] = clean.evaluate(script.format(json.dumps(asked)))
+    with started(program_path()) as page:
+        [program] = page.call("runs", asked=asked, runs=page.call("plan", asked=asked)["runs"])
+    assert mine["run_id"] == program["run_id"] and len(mine["peaks"]) == len(program["peaks"]) > 5
+    for one, other in zip(mine["peaks"], program["peaks"]):
+        assert [one[key] for key in ("quantity", "place", "filter")] == [other[key] for key in ("quantity", "place", "filter")]
+        assert one["value"] == pytest.approx(other["value"], rel=1e-9, abs=1e-12), (one, other)
+
+
+AXE = Path(os.environ.get("TTB_AXE", "axe.min.js"))
+
+
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+def test_it_is_accessible_and_fits_three_widths(clean, scheme, tmp_path):
+    pictures = Path(os.environ.get("TTB_PICTURES", tmp_path))
+    clean.scheme(scheme)
+    clean.send("Page.reload")
+    time.sleep(0.3)
+    clean.wait("document.documentElement.dataset.ready === 'true'")
+    two_spans(clean)
+    clean.type("#speeds", "140:420:10")
+    clean.click("#compute")
+    computed(clean, 60)
+    clean.wait("document.querySelector('#film svg')", 60)
+    for width in (360, 820, 1440):
+        clean.size(width, 900)
+        time.sleep(0.4)
+        assert clean.evaluate("document.documentElement.scrollWidth") <= width
+        clean.picture(pictures / f"page-{width}-{scheme}.png")
+    if AXE.is_file():
+        clean.send("Runtime.evaluate", expression=AXE.read_text())
+        found = clean.evaluate("axe.run(document, { resultTypes: ['violations'] }).then((all) => all.violations.map((one) => [one.id, one.impact, one.nodes.slice(0, 3).map((node) => node.html)]))")
+        assert [one for one in found if one[1] in ("serious", "critical")] == [], found
+        print("axe:", found)
