@@ -59,6 +59,9 @@ fn write(folder: &Path, digits: usize) -> BridgeSpec {
         step: 1e-3,
         end: 1.0,
         newmark: Newmark::default(),
+        space: false,
+        ground: None,
+        ground_points: Vec::new(),
     }
 }
 

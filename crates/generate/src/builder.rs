@@ -16,7 +16,7 @@ pub(crate) struct Builder {
 impl Builder {
     /// An empty model.
     pub(crate) fn new(source: &str) -> Self {
-        let deck = DeckLine { length: 0.0, y: 0.0, on: DeckCarrier::Nodes(Vec::new()) };
+        let deck = DeckLine { length: 0.0, y: 0.0, z: None, on: DeckCarrier::Nodes(Vec::new()) };
         let model = Model {
             schema: None,
             source: source.to_string(),

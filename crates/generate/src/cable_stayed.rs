@@ -113,7 +113,7 @@ fn build(asked: &CableStayed, girders: &[Girder; 3], mesh: Mesh) -> Model {
     abutment(&mut b, 0.0, &before);
     abutment(&mut b, 2.0 * a + length, &after);
     let floors = girders.iter().flat_map(Girder::floor).collect();
-    b.model.deck = DeckLine { length: 2.0 * a + length, y: asked.track_y, on: DeckCarrier::Shells(floors) };
+    b.model.deck = DeckLine { length: 2.0 * a + length, y: asked.track_y, z: None, on: DeckCarrier::Shells(floors) };
     b.model
 }
 

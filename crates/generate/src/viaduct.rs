@@ -82,7 +82,7 @@ pub fn viaduct(asked: &Viaduct) -> Result<Model, Refused> {
     let held = [(along, Freedom::X), (guides, Freedom::Y), (bearings, Freedom::Z)];
     b.model.bearings = held.into_iter().map(|(nodes, fixed)| Bearings { nodes, fixed: vec![fixed] }).collect();
     let on = DeckCarrier::Shells(one.floor().to_vec());
-    b.model.deck = DeckLine { length: asked.spans as f64 * asked.span, y: asked.track_y, on };
+    b.model.deck = DeckLine { length: asked.spans as f64 * asked.span, y: asked.track_y, z: None, on };
     Ok(b.model)
 }
 

@@ -21,6 +21,10 @@ impl Density {
                 let (square, c2, r2) = (omega * omega, omega_c * omega_c, omega_r * omega_r);
                 a * c2 / ((square + r2) * (square + c2))
             }
+            Self::GermanTwist { a, omega_c, omega_r, omega_s } => {
+                let (square, c2) = (omega * omega, omega_c * omega_c);
+                a * c2 * square / ((square + omega_r * omega_r) * (square + c2) * (square + omega_s * omega_s))
+            }
             Self::Sncf { a, n0 } => a / (1.0 + n / n0).powi(3) / TAU,
             Self::PowerLaws { pieces } => {
                 let piece = pieces.iter().find(|(limit, ..)| limit.is_none_or(|limit| n < limit));
@@ -48,6 +52,26 @@ impl Density {
 #[cfg(test)]
 mod tests {
     use crate::bundled;
+
+    /// Components beside the level, by an independent quadrature, mm.
+    #[test]
+    fn standard_deviations_of_the_lateral_components_are_the_known_ones() {
+        let known = [
+            ("german-low", 3.0, 25.0, [0.7135, 1.3680, 0.2485]),
+            ("german-high", 3.0, 25.0, [1.2131, 2.2389, 0.3461]),
+            ("china-ballastless", 2.0, 120.0, [0.5336, 0.4485, 0.3261]),
+            ("fra-6", 3.0, 25.0, [1.4291, 1.9856, 1.9856]),
+        ];
+        for (name, short, long, expected) in known {
+            let all = bundled::lateral(name).expect(name);
+            let sigma = [all.alignment, all.cross_level, all.gauge].map(|density| 1e3 * density.sigma(short, long));
+            for (sigma, expected) in sigma.into_iter().zip(expected) {
+                assert!((sigma - expected).abs() < 1e-4, "{name} {short}–{long} m: {sigma} mm, known {expected} mm");
+            }
+        }
+        let level = 1e3 * bundled::spectrum("fra-6").expect("bundled").sigma(3.0, 25.0);
+        assert!((level - 1.4291).abs() < 1e-4, "{level}");
+    }
 
     /// docs/theory.md 15, mm.
     #[test]

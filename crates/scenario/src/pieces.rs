@@ -5,7 +5,7 @@ use serde_json::Value;
 
 use crate::types::{
     Bridge, CarChoice, Contact, CouplingSettings, Csv, Damping, Forces, Irregularity, Newmark, Point, Rail, RailPoint,
-    Speed, Structure, Time, Track, TrackChoice, Train,
+    Space, Speed, Structure, Time, Track, TrackChoice, Train,
 };
 
 /// Whatever can be read; `None` is what the schema's walker has complained about.
@@ -37,6 +37,9 @@ pub(crate) struct Pieces {
     pub has_forces: bool,
     pub has_points: bool,
     pub csv: Option<Csv>,
+    /// The run in space, if the key is there and can be read.
+    pub space: Option<Space>,
+    pub has_space: bool,
 }
 
 impl Pieces {
@@ -67,6 +70,8 @@ impl Pieces {
             has_step: !scenario["time"]["step"].is_null(),
             has_points: !scenario["bridge"]["points"].is_null(),
             csv: piece(&scenario["output"]["csv"]),
+            space: piece(&scenario["space"]),
+            has_space: scenario.get("space").is_some(),
         }
     }
 }

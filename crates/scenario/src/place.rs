@@ -50,6 +50,7 @@ pub(crate) fn place(pieces: &Pieces, resolved: &Resolved, report: &mut Report) -
     }
     let deck = resolved.structure.as_ref().and_then(Deck::new).filter(|deck| deck.length > 0.0);
     points(pieces, &mut placed);
+    space(pieces, resolved, &mut placed);
     placed.free_vibration = free_vibration(pieces, resolved, deck.as_ref(), &mut placed);
     let (Some(train), Some(laid), Some(time)) = (&pieces.train, &pieces.track, &pieces.time) else { return placed };
     let moving = |speed: &&Vec<[f64; 2]>| {
@@ -126,6 +127,26 @@ pub(crate) fn place(pieces: &Pieces, resolved: &Resolved, report: &mut Report) -
         Some(bays as usize)
     });
     placed
+}
+
+/// What a run in space leaves out, key by key.
+fn space(pieces: &Pieces, resolved: &Resolved, placed: &mut Placement) {
+    let (Some(given), Some(spatial)) = (&pieces.space, &resolved.spatial) else { return };
+    let (filled, default) = (&spatial.filled, crate::types::ContactInSpace::default());
+    if given.contact == default {
+        placed.chose("space.contact", json!(filled.contact), "", "default");
+    }
+    if given.track != filled.track {
+        placed.chose("space.track", json!(filled.track), "", "defaults for the track's type");
+    }
+    if given.irregularity.is_none() {
+        let why = match &filled.irregularity {
+            Some(crate::types::IrregularityInSpace::Spectrum { .. }) => "the components that belong to the level",
+            _ => "the level alone",
+        };
+        placed.chose("space.irregularity", json!(filled.irregularity), "", why);
+    }
+    placed.space = Some(filled.clone());
 }
 
 /// Without points the middle of every span is one.

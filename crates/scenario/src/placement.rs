@@ -2,7 +2,7 @@
 
 use serde_json::Value;
 
-use crate::types::{Point, Scenario};
+use crate::types::{Point, Scenario, Space};
 
 /// A key of the scenario that was left out, and what was chosen for it.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, schemars::JsonSchema)]
@@ -27,6 +27,7 @@ pub(crate) struct Placement {
     pub end: Option<f64>,
     pub free_vibration: Option<f64>,
     pub points: Option<Vec<Point>>,
+    pub space: Option<Space>,
     pub chosen: Vec<Chosen>,
 }
 
@@ -42,5 +43,6 @@ pub(crate) fn fill(scenario: &mut Scenario, placed: Placement) {
     scenario.train.pre_roll = placed.pre_roll;
     (scenario.track.from, scenario.track.bays) = (placed.from, placed.bays);
     (scenario.time.end, scenario.time.free_vibration) = (placed.end, placed.free_vibration);
+    scenario.space = placed.space;
     scenario.bridge.points = scenario.bridge.points.take().or(placed.points);
 }

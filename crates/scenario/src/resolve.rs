@@ -9,6 +9,7 @@ use crate::model;
 use crate::pieces::Pieces;
 use crate::problem::Report;
 use crate::spans;
+use crate::spatial::{self, Spatial};
 use crate::spec::{BridgeSpec, Profile, StructureSpec, TrainTrackSpec, Vehicle};
 use crate::step::{Excited, Steps};
 use crate::types::{
@@ -24,17 +25,25 @@ pub(crate) struct Resolved {
     pub track: Option<TrackType>,
     pub profile: Option<Profile>,
     pub structure: Option<StructureSpec>,
+    pub spatial: Option<Spatial>,
 }
 
 /// Looks up names and reads the measured irregularity, relative to `base_dir`.
 pub(crate) fn resolve(pieces: &Pieces, base_dir: &Path, report: &mut Report) -> Resolved {
     let cars: Option<Vec<Vec<Vehicle>>> = pieces.cars.iter().map(|choice| cars(choice.as_ref()?)).collect();
-    let cars = cars.map(|cars| cars.concat()).filter(|cars| !cars.is_empty());
+    let cars = cars.map(|cars| spatial::plane(cars.concat())).filter(|cars| !cars.is_empty());
+    let track = pieces.track_type.as_ref().and_then(track);
+    let mut profile = pieces.irregularity.as_ref().and_then(|chosen| profile(chosen, base_dir, report));
+    let mut spatial = spatial::resolve(pieces, track.as_ref(), base_dir, report);
+    if let Some(level) = spatial.as_mut().and_then(|spatial| spatial.level.take()) {
+        profile = Some(level);
+    }
     Resolved {
+        spatial,
         cars: cars.or_else(|| forces(pieces.forces.as_ref()?)),
         speed: pieces.speed.as_ref().map(speed),
-        track: pieces.track_type.as_ref().and_then(track),
-        profile: pieces.irregularity.as_ref().and_then(|chosen| profile(chosen, base_dir, report)),
+        track,
+        profile,
         structure: pieces.structure.as_ref().and_then(|chosen| structure(chosen, base_dir, report)),
     }
 }
@@ -150,6 +159,7 @@ pub(crate) fn specs(scenario: &Scenario, resolved: Resolved) -> Option<(TrainTra
         substeps: given.substeps,
         end,
         newmark: time.newmark,
+        space: None,
     };
     if time.step.given().is_none() {
         let steps = Excited::of(&train_track).steps(time.substeps);
@@ -165,6 +175,10 @@ pub(crate) fn specs(scenario: &Scenario, resolved: Resolved) -> Option<(TrainTra
         step: train_track.step,
         end,
         newmark: time.newmark,
+        space: resolved.spatial.is_some(),
+        ground: resolved.spatial.as_ref().and_then(|spatial| spatial.spec.ground.clone()),
+        ground_points: Vec::new(),
     };
+    train_track.space = resolved.spatial.map(|spatial| spatial.spec);
     Some((train_track, bridge))
 }

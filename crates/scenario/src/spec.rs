@@ -4,10 +4,15 @@ use std::path::PathBuf;
 
 use serde::{Deserialize, Serialize};
 
+use crate::ground::GroundSeries;
 use crate::types::{
     self, Car, Contact, Damping, Frame, Model, Newmark, Point, RailPoint, Ramp, Reduction, TrackType, Wave,
 };
 use crate::vehicle::Equations;
+
+mod space;
+
+pub use space::*;
 
 /// All the train–track subsystem is built from (`resources/train-track.json`).
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -51,6 +56,9 @@ pub struct TrainTrackSpec {
     pub end: f64,
     /// Newmark's parameters.
     pub newmark: Newmark,
+    /// What only a run in space has; absent: the run is plane.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub space: Option<SpaceSpec>,
 }
 
 /// What a train is made of.
@@ -169,6 +177,17 @@ pub enum Density {
         /// Ω_r, rad/m.
         omega_r: f64,
     },
+    /// S(Ω) = A Ω_c² Ω² / [(Ω² + Ω_r²)(Ω² + Ω_c²)(Ω² + Ω_s²)], m²/(rad/m): cross-level and gauge.
+    GermanTwist {
+        /// A, m rad: of the difference of both rails.
+        a: f64,
+        /// Ω_c, rad/m.
+        omega_c: f64,
+        /// Ω_r, rad/m.
+        omega_r: f64,
+        /// Ω_s, rad/m.
+        omega_s: f64,
+    },
     /// S(n) = A / (1 + n/n₀)³, m²/(1/m), n in 1/m.
     Sncf {
         /// A, m³.
@@ -204,6 +223,19 @@ pub struct BridgeSpec {
     pub end: f64,
     /// Newmark's parameters.
     pub newmark: Newmark,
+    /// Whether supports move, and take forces, in space.
+    #[serde(default, skip_serializing_if = "is_false")]
+    pub space: bool,
+    /// Motion of the ground under its bearings.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub ground: Option<GroundSeries>,
+    /// How far the monitored points go along with the ground across and down, where an FMU's resources hold no model.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub ground_points: Vec<[f64; 2]>,
+}
+
+fn is_false(value: &bool) -> bool {
+    !value
 }
 
 /// One span of a beam bridge.

@@ -141,3 +141,104 @@ fn forces_alone_are_a_list_or_a_name_and_not_beside_cars() {
         ]
     );
 }
+
+/// The scenario of [`check`] with the key `space`.
+fn in_space(cars: Value, space: Value) -> Result<Checked, Problems> {
+    let train = json!({ "cars": cars, "speed": { "km_h": 200 } });
+    let mut whole: Value = serde_json::from_str(&scenario(train)).unwrap();
+    whole["space"] = space;
+    from_str(&whole.to_string(), Path::new(""), "f")
+}
+
+#[test]
+fn a_car_in_space_weighs_what_the_plane_one_does_and_a_side_has_half_of_its_springs() {
+    use ttb_scenario::spec::LinkLaw;
+    for name in ["manchester", "ice3-motor", "ice3-trailer", "emu-a", "emu-b"] {
+        let checked = in_space(json!([name]), json!({})).unwrap_or_else(|problems| panic!("{problems}"));
+        let (plane, space) = (&checked.train_track.cars[0], &checked.train_track.space.as_ref().unwrap().cars[0]);
+        assert!(plane.space.is_none(), "the plane data stay plane");
+        let mass: f64 = space.bodies.iter().map(|body| body.mass).sum();
+        assert!((GRAVITY * mass / (4.0 * plane.axle_load()) - 1.0).abs() < 1e-14, "{name}");
+        let vertical = |bodies: [usize; 2]| -> [f64; 2] {
+            let between = space.links.iter().filter(|link| link.between == bodies);
+            between.fold([0.0; 2], |[k, c], link| match &link.law {
+                LinkLaw::Linear { stiffness, damping } => [k + stiffness[2], c + damping[2]],
+                _ => [k, c],
+            })
+        };
+        assert_eq!(vertical([0, 2]), [plane.secondary_stiffness, plane.secondary_damping], "{name}");
+        assert_eq!(vertical([2, 6]), [plane.primary_stiffness, plane.primary_damping], "{name}");
+        // A rigid motion, here roll about the rail's top, y = −h φ·(−1), strains no link between two bodies.
+        for link in &space.links {
+            let across = |end: usize| space.bodies[link.between[end]].height - link.at[end][2];
+            assert!((across(0) - across(1)).abs() < 1e-12, "{name}: both ends of a link are at one height");
+            let along = |end: usize| space.bodies[link.between[end]].x + link.at[end][0];
+            assert!((along(0) - along(1)).abs() < 1e-12 && link.at[0][1] == link.at[1][1], "{name}");
+        }
+    }
+}
+
+#[test]
+fn all_that_a_run_in_space_leaves_out_is_chosen_and_written_down() {
+    let checked = in_space(json!(["manchester"]), json!({})).unwrap();
+    let keys: Vec<&str> = checked.chosen.iter().map(|chosen| chosen.key.as_str()).collect();
+    for key in ["space.contact", "space.track", "space.irregularity"] {
+        assert!(keys.contains(&key), "{keys:?}");
+    }
+    let resolved = serde_json::to_value(&checked.scenario).unwrap();
+    assert_eq!(resolved["space"]["contact"]["wheel"], "s1002");
+    assert_eq!(resolved["space"]["track"]["lateral"]["stiffness"], 2e7);
+    assert!(checked.bridge.space && checked.train_track.space.is_some());
+    // What was chosen, given, is the same scenario.
+    let again = from_str(&resolved.to_string(), Path::new(""), "f").unwrap();
+    assert_eq!((again.train_track.space, again.hash), (checked.train_track.space, checked.hash));
+}
+
+#[test]
+fn everything_wrong_in_space_is_told_at_once() {
+    let problems = in_space(
+        json!(["velaro-e", "manchester"]),
+        json!({
+            "contact": { "friction": 30, "creep": "shenn", "wheel": "s1002" },
+            "curve": { "radius": 40, "begin": 0, "transition": 50 },
+            "wind": { "area": 60, "length": 3, "coefficients": "missing.csv" },
+            "irregularity": { "type": "spectrum", "spectrum": "fra-4", "seed": 1, "wavelengths": [30, 3] }
+        }),
+    );
+    let text = problems.unwrap_err().to_string();
+    for expected in [
+        "$.train.cars[0]: a run in space needs a car's data in space: `velaro-e` has none; bundled cars with them: ice3",
+        "$.space.contact.friction",
+        "`shen`?",
+    ] {
+        assert!(text.contains(expected), "{expected}\n{text}");
+    }
+    let problems = in_space(
+        json!(["manchester"]),
+        json!({
+            "curve": { "radius": 40, "begin": 0, "transition": 50 },
+            "wind": { "area": 60, "length": 3, "coefficients": "missing.csv" },
+            "irregularity": { "type": "spectrum", "spectrum": "fra-4", "seed": 1, "wavelengths": [30, 3] }
+        }),
+    );
+    let text = problems.unwrap_err().to_string();
+    for expected in [
+        "$.space.curve.radius: a radius must have at least 150 m",
+        "$.space.wind: must have exactly one of the keys over_time, over_place: neither",
+        "$.space.wind.coefficients: the file cannot be read: missing.csv",
+        "$.space.irregularity.wavelengths: wavelengths must be [shortest, longest]",
+    ] {
+        assert!(text.contains(expected), "{expected}\n{text}");
+    }
+}
+
+#[test]
+fn a_plane_run_refuses_what_belongs_to_space() {
+    let mut car = serde_json::to_value(&bundled::cars("manchester").unwrap()[0]).unwrap();
+    let text = check(json!({ "cars": [car], "speed": { "km_h": 200 } })).unwrap_err().to_string();
+    assert!(text.contains("$.train.cars[0].space: belongs to a run in space"), "{text}");
+    car.as_object_mut().unwrap().remove("space");
+    let plane = check(json!({ "cars": [car], "speed": { "km_h": 200 } })).unwrap();
+    let text = serde_json::to_string(&(&plane.train_track, &plane.bridge, &plane.scenario)).unwrap();
+    assert!(!text.contains("\"space\"") && !text.contains("\"ground\":"), "{text}");
+}

@@ -39,6 +39,8 @@ fn static_axle_loads_are_the_published_ones() {
         ("velaro-e", 152.06),
         ("manchester", 109.09),
         ("shinkansen-s300", 134.8),
+        ("emu-a", 123.36),
+        ("emu-b", 106.93),
     ] {
         let car = Car::new(&ttb_scenario::bundled::cars(name).unwrap()[0]);
         table.row(name, kilonewton, car.axle_load / 1e3, 5e-4);

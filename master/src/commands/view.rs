@@ -69,6 +69,9 @@ fn of_model(file: &Path) -> Result<BridgeSpec, Error> {
         step: 1e-3,
         end: 1.0,
         newmark: Newmark::default(),
+        space: false,
+        ground: None,
+        ground_points: Vec::new(),
     })
 }
 

@@ -31,6 +31,9 @@ pub fn bridge(structure: StructureSpec, length: f64, bays: usize, step: f64) -> 
         step,
         end: 1.0,
         newmark: Newmark::default(),
+        space: false,
+        ground: None,
+        ground_points: Vec::new(),
     }
 }
 

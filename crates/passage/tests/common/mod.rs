@@ -31,6 +31,9 @@ pub fn beams(list: &[[f64; 3]], continuous: bool, ratio: f64, modes: Option<usiz
         step: 1e-3,
         end: 1.0,
         newmark: Newmark::default(),
+        space: false,
+        ground: None,
+        ground_points: Vec::new(),
     }
 }
 

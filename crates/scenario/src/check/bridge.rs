@@ -56,6 +56,7 @@ fn place(point: &Point, path: &str, structure: Option<&StructureSpec>, report: &
                 Direction::X => {
                     report.problem(format!("{path}.direction"), "motion along the track is known at nodes only", "x");
                 }
+                Direction::Y if matches!(structure, Some(StructureSpec::FiniteElements(_))) => {}
                 Direction::Y => {
                     report.problem(format!("{path}.direction"), "motion across the track is known at nodes only", "y");
                 }

@@ -11,6 +11,7 @@ mod passage;
 mod places;
 mod plausible;
 mod run;
+mod space;
 
 pub(crate) use run::chosen_steps;
 
@@ -45,4 +46,5 @@ pub(crate) fn check(pieces: &Pieces, resolved: &Resolved, placed: &Placement, re
     bridge::check(pieces, resolved, report);
     layout::check(pieces, resolved, placed, report);
     plausible::check(pieces, resolved, report);
+    space::check(pieces, resolved, report);
 }

@@ -62,6 +62,10 @@ pub struct DeckLine {
     /// y of the track's axis, m; not on the carrying elements' axis: the deck twists.
     #[serde(default)]
     pub y: f64,
+    /// z of the reference point at the level of the rails' foot, m, for runs in space; absent: the top of carrying shells, the
+    /// axis of beams, the height of nodes.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub z: Option<f64>,
     /// What carries.
     pub on: DeckCarrier,
 }

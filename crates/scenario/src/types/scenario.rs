@@ -8,6 +8,7 @@ use super::coupling::CouplingSettings;
 use super::csv::Csv;
 use super::fmus::Fmus;
 use super::irregularity::Irregularity;
+use super::space::Space;
 use super::time::Time;
 use super::track::Track;
 use super::train::{Contact, Train};
@@ -104,6 +105,9 @@ pub struct Scenario {
     /// What the results hold.
     #[serde(default)]
     pub output: Output,
+    /// The run in space: lateral motion, two rails, creep and flanges; absent: a plane run.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub space: Option<Space>,
     /// Parameters of the FMUs.
     #[serde(default, skip_serializing_if = "Fmus::is_empty")]
     pub fmus: Fmus,

@@ -3,6 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::space::CarInSpace;
 use super::vehicle::Vehicle;
 use crate::data::train_names;
 
@@ -50,6 +51,9 @@ pub struct Car {
     /// Length over couplers, m: the pitch to the next car.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub length: f64,
+    /// What it has in space; only together with the scenario's key `space`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub space: Option<Box<CarInSpace>>,
     /// Where the data come from.
     #[serde(default)]
     pub source: String,

@@ -65,7 +65,7 @@ fn faults_against_the_schema_are_all_found() {
                 &[("/train/cars/1", "\"ice-trailer\"")],
                 &[(
                     "$.train.cars[1]",
-                    "must be one of ice3-motor, ice3-trailer, velaro-e, manchester, shinkansen-s300, ice3",
+                    "must be one of ice3-motor, ice3-trailer, velaro-e, manchester, shinkansen-s300, emu-a, emu-b, ice3",
                 )],
             ),
             case("number for a car", &[("/train/cars/1", "3")], &[("$.train.cars[1]", "must be a text or an object")]),
@@ -79,7 +79,7 @@ fn faults_against_the_schema_are_all_found() {
                 &[("/irregularity/spectrum", "\"FRA\"")],
                 &[(
                     "$.irregularity.spectrum",
-                    "must be one of german-low, german-high, sncf-good, sncf-poor, china-ballastless",
+                    "must be one of german-low, german-high, sncf-good, sncf-poor, china-ballastless, fra-4, fra-5, fra-6",
                 )],
             ),
             case(

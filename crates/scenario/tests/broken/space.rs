@@ -160,9 +160,9 @@ fn faults_in_elements_are_all_found() {
                 &[("$.bridge.points[0].x", "a point must lie on the bridge")],
             ),
             case(
-                "a point on the deck that moves sideways",
-                &[("/bridge/points/0/direction", "\"y\"")],
-                &[("$.bridge.points[0].direction", "motion across the track is known at nodes only")],
+                "a point on the deck that moves along it",
+                &[("/bridge/points/0/direction", "\"x\"")],
+                &[("$.bridge.points[0].direction", "motion along the track is known at nodes only")],
             ),
         ],
     );

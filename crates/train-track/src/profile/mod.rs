@@ -2,6 +2,7 @@
 //! (`samples`), grown from nothing where it begins.
 
 mod hermite;
+pub mod rails;
 pub mod random;
 mod samples;
 
@@ -37,13 +38,19 @@ impl Irregularity {
     /// profile.
     #[must_use]
     pub fn new(profile: &Profile, scale: f64, passage: [f64; 2], seed: Option<u64>) -> Self {
+        Self::component(profile, scale, passage, seed, 0)
+    }
+
+    /// The same of a component of several, whose random phases are `stream`s of one seed: 0 is the level.
+    #[must_use]
+    pub fn component(profile: &Profile, scale: f64, passage: [f64; 2], seed: Option<u64>, stream: u8) -> Self {
         let (form, ramp) = match profile {
             Profile::None => (Form::None, None),
             Profile::Waves { waves, origin, ramp } => {
                 (Form::Waves { waves: waves.clone(), origin: *origin }, ramp.clone())
             }
             Profile::Spectrum { density, seed: own, wavelengths, ramp } => {
-                let table = Table::draw(density, *wavelengths, passage[1] - passage[0], seed.unwrap_or(*own));
+                let table = Table::draw(density, *wavelengths, passage[1] - passage[0], seed.unwrap_or(*own), stream);
                 let default = Ramp { start: passage[0], length: DEFAULT_RAMP, shape: RampShape::Quintic };
                 (Form::Random(table), Some(ramp.clone().unwrap_or(default)))
             }

@@ -42,7 +42,8 @@ pub struct Table {
 
 impl Table {
     /// A sample of `density` with wavelengths from `shortest` to `longest` for a passage of `length` m.
-    pub fn draw(density: &Density, [shortest, longest]: [f64; 2], length: f64, seed: u64) -> Self {
+    /// `stream` tells the components of one seed apart; the level is 0.
+    pub fn draw(density: &Density, [shortest, longest]: [f64; 2], length: f64, seed: u64, stream: u8) -> Self {
         let period = LEAST_PERIOD.max(2.0 * length).log2().ceil().exp2();
         let count = (POINTS_PER_WAVE * period / shortest).log2().ceil().exp2() as usize;
         let spacing = TAU / period; // ΔΩ
@@ -53,6 +54,7 @@ impl Table {
         let mut slopes = values.clone();
         let mut key = [0; 32];
         key[..8].copy_from_slice(&seed.to_le_bytes());
+        key[8] = stream;
         let mut random = ChaCha8Rng::from_seed(key);
         for k in 1..=last {
             let phase = TAU * (random.next_u64() >> 11) as f64 / (1_u64 << 53) as f64;

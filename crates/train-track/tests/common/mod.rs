@@ -41,6 +41,7 @@ pub fn spec() -> TrainTrackSpec {
         substeps: 1,
         end: 0.3,
         newmark: Newmark { gamma: 0.5, beta: 0.25 },
+        space: None,
     }
 }
 
