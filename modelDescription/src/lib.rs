@@ -15,5 +15,5 @@ pub mod xml;
 pub use about::About;
 pub use date::Date;
 pub use guid::guid;
-pub use package::{Contents, PackError, pack};
+pub use package::{Contents, Libraries, PackError, pack};
 pub use xml::{XmlError, xml};

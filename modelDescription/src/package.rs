@@ -5,11 +5,12 @@ use crate::date::Date;
 use crate::documentation::documentation;
 use crate::xml::{XmlError, xml};
 use std::fs::{self, File};
-use std::io::{self, BufWriter, Write};
+use std::io::{self, BufWriter, Cursor, Write};
 use std::path::{Path, PathBuf};
 use ttb_contract::Interface;
+use zip::result::ZipResult;
 use zip::write::SimpleFileOptions;
-use zip::{CompressionMethod, DateTime, ZipWriter};
+use zip::{CompressionMethod, DateTime, ZipArchive, ZipWriter};
 
 /// Folder of this machine's shared library below `binaries/` (FMI 2.0, section 2.3).
 pub const PLATFORM: &str = if cfg!(target_os = "macos") {
@@ -28,14 +29,26 @@ pub const LIBRARY_EXTENSION: &str = if cfg!(target_os = "macos") {
     "so"
 };
 
+/// The shared libraries of an FMU, which lie in it as `binaries/<platform>/<modelIdentifier>.<extension>`.
+#[derive(Clone, Copy, Debug)]
+pub enum Libraries<'a> {
+    /// The one for this machine, a file of any name.
+    File(&'a Path),
+    /// The one for this machine, in memory.
+    Bytes(&'a [u8]),
+    /// Those for any number of platforms: an archive where each has the name that it gets in the FMU. They are copied as they
+    /// are compressed; those of other model identifiers are passed over.
+    Archive(&'a [u8]),
+}
+
 /// What goes into an FMU.
 pub struct Contents<'a> {
     /// The variables of the FMU.
     pub interface: &'a Interface,
     /// Name, purpose and default experiment of the FMU.
     pub about: &'a About<'a>,
-    /// The shared library, whatever it is called; inside it becomes `binaries/<platform>/<modelIdentifier>.so`.
-    pub binary: &'a Path,
+    /// The shared libraries.
+    pub libraries: Libraries<'a>,
     /// A folder whose files become `resources/…`.
     pub resources: Option<&'a Path>,
     /// File name and text of each licence, below `documentation/licenses/`.
@@ -48,6 +61,12 @@ pub enum PackError {
     /// The interface cannot be described.
     #[error(transparent)]
     Xml(#[from] XmlError),
+    /// The archive of libraries has none of this FMU.
+    #[error("no shared library of {identifier} is at hand")]
+    NoLibrary {
+        /// The FMU's model identifier.
+        identifier: String,
+    },
     /// A file cannot be read.
     #[error("{} cannot be read: {source}", path.display())]
     Read {
@@ -111,7 +130,7 @@ impl<W: Write + io::Seek> Archive<'_, W> {
     fn entries(&mut self, contents: &Contents) -> Result<(), PackError> {
         let identifier = contents.about.model_identifier;
         self.text("modelDescription.xml", &xml(contents.interface, contents.about)?)?;
-        self.file(&format!("binaries/{PLATFORM}/{identifier}.{LIBRARY_EXTENSION}"), contents.binary)?;
+        self.libraries(identifier, contents.libraries)?;
         self.text("documentation/index.html", &documentation(contents.interface, contents.about))?;
         for (name, text) in contents.licenses {
             self.text(&format!("documentation/licenses/{name}"), text)?;
@@ -119,19 +138,55 @@ impl<W: Write + io::Seek> Archive<'_, W> {
         contents.resources.map_or(Ok(()), |resources| self.folder("resources", resources))
     }
 
-    /// Opens an entry. Without a date it gets the first that archives know, 1980, so that the same contents are the same bytes.
+    fn libraries(&mut self, identifier: &str, libraries: Libraries) -> Result<(), PackError> {
+        let name = format!("binaries/{PLATFORM}/{identifier}.{LIBRARY_EXTENSION}");
+        match libraries {
+            Libraries::File(path) => self.file(&name, path),
+            Libraries::Bytes(bytes) => self.bytes(&name, bytes),
+            Libraries::Archive(archive) => self
+                .copy(identifier, archive)
+                .map_err(|e| self.failed(e.into()))?
+                .then_some(())
+                .ok_or_else(|| PackError::NoLibrary { identifier: identifier.into() }),
+        }
+    }
+
+    /// Copies what an archive has for a model identifier; whether it has anything.
+    fn copy(&mut self, identifier: &str, archive: &[u8]) -> ZipResult<bool> {
+        let mut archive = ZipArchive::new(Cursor::new(archive))?;
+        let mut any = false;
+        for i in 0..archive.len() {
+            let entry = archive.by_index_raw(i)?;
+            if Path::new(entry.name()?.as_ref()).file_stem().is_some_and(|stem| stem == identifier) {
+                self.zip.raw_copy_file_touch(entry, self.time(), Some(0o644))?;
+                any = true;
+            }
+        }
+        Ok(any)
+    }
+
+    /// Date of the entries. Without one they get the first that archives know, 1980, so that the same contents are the same bytes.
+    fn time(&self) -> DateTime {
+        self.date.map_or_else(DateTime::default, Date::of_entry)
+    }
+
+    /// Opens an entry.
     fn entry(&mut self, name: &str) -> Result<(), PackError> {
         let options = SimpleFileOptions::default()
             .compression_method(CompressionMethod::Deflated)
             .compression_level(Some(3)) // a run packs its FMUs anew: speed before the last per cent
-            .last_modified_time(self.date.map_or_else(DateTime::default, Date::of_entry))
+            .last_modified_time(self.time())
             .unix_permissions(0o644);
         self.zip.start_file(name, options).map_err(|e| self.failed(e.into()))
     }
 
     fn text(&mut self, name: &str, text: &str) -> Result<(), PackError> {
+        self.bytes(name, text.as_bytes())
+    }
+
+    fn bytes(&mut self, name: &str, bytes: &[u8]) -> Result<(), PackError> {
         self.entry(name)?;
-        self.zip.write_all(text.as_bytes()).map_err(|e| self.failed(e))
+        self.zip.write_all(bytes).map_err(|e| self.failed(e))
     }
 
     fn file(&mut self, name: &str, from: &Path) -> Result<(), PackError> {

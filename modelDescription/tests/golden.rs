@@ -5,7 +5,7 @@
 
 use std::path::Path;
 use ttb_contract::{Interface, Kind, Variable};
-use ttb_model_description::{About, Contents, XmlError, pack, xml};
+use ttb_model_description::{About, Contents, Libraries, XmlError, pack, xml};
 
 const CHOICES: Kind = Kind::Enumeration(&[("Held", "inputs are held"), ("Line", "inputs run along a line")]);
 
@@ -82,7 +82,7 @@ fn the_same_contents_make_the_same_archive_in_fmi_order() {
     let contents = Contents {
         interface: &interface,
         about: &about,
-        binary: &binary,
+        libraries: Libraries::File(&binary),
         resources: Some(&resources),
         licenses: &licenses,
     };
@@ -116,7 +116,13 @@ fn a_date_that_is_asked_for_stands_in_the_description_and_on_every_entry_and_no_
     let dated = About { date, ..about() };
     assert!(xml(&interface, &dated).unwrap().contains(" generationDateAndTime=\"2024-02-29T12:34:56Z\""));
     let entries = |about: &About| {
-        let contents = Contents { interface: &interface, about, binary: &binary, resources: None, licenses: &[] };
+        let contents = Contents {
+            interface: &interface,
+            about,
+            libraries: Libraries::File(&binary),
+            resources: None,
+            licenses: &[],
+        };
         let path = folder.path().join("x.fmu");
         pack(&contents, &path).unwrap();
         let mut archive = zip::ZipArchive::new(std::fs::File::open(path).unwrap()).unwrap();
@@ -132,8 +138,51 @@ fn a_missing_binary_is_named_and_leaves_nothing_behind() {
     let folder = tempfile::tempdir().unwrap();
     let (interface, about) = (interface(), about());
     let binary = Path::new("/nowhere/libnothing.so");
-    let contents = Contents { interface: &interface, about: &about, binary, resources: None, licenses: &[] };
+    let contents = Contents {
+        interface: &interface,
+        about: &about,
+        libraries: Libraries::File(binary),
+        resources: None,
+        licenses: &[],
+    };
     let error = pack(&contents, &folder.path().join("x.fmu")).unwrap_err().to_string();
     assert!(error.starts_with("/nowhere/libnothing.so cannot be read"), "{error}");
     assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
+}
+
+#[test]
+fn libraries_for_several_platforms_are_copied_as_they_are_compressed_and_dated() {
+    use std::io::Write;
+    let mut zip = zip::ZipWriter::new(std::io::Cursor::new(Vec::new()));
+    let names = ["binaries/linux64/Small.so", "binaries/linux64/Other.so", "binaries/win64/Small.dll"];
+    for name in names {
+        let options = zip::write::SimpleFileOptions::default().compression_level(Some(9));
+        zip.start_file(name, options).unwrap();
+        zip.write_all(&name.as_bytes().repeat(99)).unwrap();
+    }
+    let archive = zip.finish().unwrap().into_inner();
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("x.fmu");
+    let date = ttb_model_description::Date::from_epoch(1_709_210_096);
+    let (interface, about) = (interface(), About { date, ..about() });
+    let libraries = Libraries::Archive(&archive);
+    let contents = Contents { interface: &interface, about: &about, libraries, resources: None, licenses: &[] };
+    pack(&contents, &path).unwrap();
+    let packed = |file: &[u8], name: &str| {
+        let mut archive = zip::ZipArchive::new(std::io::Cursor::new(file)).unwrap();
+        let mut bytes = Vec::new();
+        std::io::Read::read_to_end(&mut archive.by_name(name).ok()?, &mut bytes).unwrap();
+        let entry = archive.by_index_raw(archive.index_for_name(name)?).unwrap();
+        Some((bytes, entry.compressed_size(), entry.last_modified()))
+    };
+    let fmu = std::fs::read(&path).unwrap();
+    let dated = Some(zip::DateTime::from_date_and_time(2024, 2, 29, 12, 34, 56).unwrap());
+    for name in [names[0], names[2]] {
+        let (bytes, size, _) = packed(&archive, name).unwrap();
+        assert_eq!(packed(&fmu, name), Some((bytes, size, dated)));
+    }
+    assert_eq!(packed(&fmu, names[1]), None);
+    let about = About { model_identifier: "Nobody", ..about };
+    let contents = Contents { interface: &interface, about: &about, libraries, resources: None, licenses: &[] };
+    assert!(pack(&contents, &path).unwrap_err().to_string().contains("Nobody"));
 }

@@ -12,7 +12,7 @@ use oscillator::{Oscillator, vr};
 use std::path::Path;
 use ttb_contract::{InProcess, Instance, Model, Subsystem};
 use ttb_fmi::{Fmu, FmuInstance, FmuSubsystem};
-use ttb_model_description::{About, Contents, pack};
+use ttb_model_description::{About, Contents, Libraries, pack};
 
 /// Packs the example library with a mass of 2 kg.
 fn packed(folder: &Path) -> (Fmu, Oscillator) {
@@ -26,7 +26,7 @@ fn packed(folder: &Path) -> (Fmu, Oscillator) {
     let contents = Contents {
         interface: model.interface(),
         about: &about,
-        binary: &library,
+        libraries: Libraries::File(&library),
         resources: Some(&resources),
         licenses: &licenses,
     };

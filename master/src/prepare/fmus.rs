@@ -7,12 +7,12 @@ use serde_json::Value;
 use ttb_bridge::Bridge;
 use ttb_contract::Model;
 use ttb_fmi::temporary::Temporary;
-use ttb_model_description::package::LIBRARY_EXTENSION;
 use ttb_model_description::{About, Contents, Date, pack};
 use ttb_scenario::{Checked, Chosen};
 use ttb_session::Sides;
 use ttb_train_track::TrainTrack;
 
+use super::libraries;
 use crate::cli::Set;
 use crate::error::Error;
 use crate::files::whole;
@@ -25,23 +25,20 @@ pub struct Built {
     pub bridge: PathBuf,
 }
 
-/// One of our FMUs: model identifier, shared library, purpose.
+/// One of our FMUs: model identifier, purpose.
 struct Kind {
     identifier: &'static str,
-    library: &'static str,
     description: &'static str,
 }
 
 const TRAIN_TRACK: Kind = Kind {
     identifier: "TrainTrack",
-    library: "fmu_train_track",
     description: "Railway cars (10 degrees of freedom each) on rail and supports with Hertzian wheel-rail contact. Inputs: \
                   motion of the bridge deck under the supports; outputs: forces of the supports on the deck, and results of \
                   train and wheels. Vertical plane, z down; displacements are changes from the dead-load state.",
 };
 const BRIDGE: Kind = Kind {
     identifier: "Bridge",
-    library: "fmu_bridge",
     description: "A bridge of finite elements. Inputs: forces of the track's supports on the deck; outputs: motion of the deck \
                   under the supports, and monitored points. Vertical plane, z down; displacements are changes from the \
                   dead-load state.",
@@ -165,24 +162,10 @@ fn write<M: Model>(kind: &Kind, model: &M, files: &[(&str, Vec<u8>)], folder: &P
             date: Date::asked_for().map_err(Error::Input)?,
             ..About::of(model, kind.identifier, kind.identifier, kind.description)
         },
-        binary: &library(kind.library)?,
+        libraries: libraries::of(kind.identifier)?,
         resources: Some(resources.path()),
         licenses: &[("license.txt", include_str!("../../../LICENSE"))],
     };
     whole(&path, |part| pack(&contents, part).map_err(std::io::Error::other))?;
     Ok(path)
-}
-
-/// The shared library beside this program, or where cargo puts it.
-fn library(name: &str) -> Result<PathBuf, Error> {
-    let file = format!("{}{name}.{LIBRARY_EXTENSION}", std::env::consts::DLL_PREFIX);
-    let program = std::env::current_exe().map_err(Error::io(Path::new("this program")))?;
-    let folder = program.parent().unwrap_or(Path::new("."));
-    let places = [folder.join("deps"), folder.to_path_buf(), folder.join("../lib/ttb")].map(|p| p.join(&file));
-    places.iter().find(|p| p.is_file()).cloned().ok_or_else(|| {
-        Error::Pack(format!(
-            "the shared library {file} is missing; it was looked for in deps/ and beside {}",
-            program.display()
-        ))
-    })
 }

@@ -3,4 +3,5 @@
 pub mod auto;
 pub mod fmus;
 mod levels;
+mod libraries;
 mod stretch;
