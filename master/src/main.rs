@@ -45,7 +45,7 @@ fn execute(command: Command, stop: &Stop) -> Result<(), Error> {
         Command::New(arguments) => new::new(&arguments),
         Command::Report(arguments) => report::report(&arguments),
         Command::Build(arguments) => build::build(&arguments, stop),
-        Command::CheckScenario { scenario, set } => check_scenario::check(&scenario, &set),
+        Command::CheckScenario { scenario, set, json } => check_scenario::check(scenario.as_deref(), &set, json),
         Command::Check(arguments) => check::check(&arguments),
         Command::Compare(arguments) => compare::compare(&arguments, stop),
         Command::Accuracy(arguments) => accuracy::accuracy(&arguments, stop),

@@ -12,7 +12,7 @@ const LISTED: usize = 20;
 pub(crate) const MUST_FIT: &str = "must fit the schema";
 
 /// One broken rule.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Problem {
     /// The scenario file as the user named it.
     pub file: String,
@@ -26,9 +26,18 @@ pub struct Problem {
     pub suggestion: Option<String>,
 }
 
+impl Problem {
+    /// Of an input as a whole, in a sentence.
+    pub fn whole(rule: String) -> Self {
+        Self { file: String::new(), path: String::new(), rule, value: String::new(), suggestion: None }
+    }
+}
+
 impl fmt::Display for Problem {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}: ", self.file)?;
+        if !self.file.is_empty() {
+            write!(f, "{}: ", self.file)?;
+        }
         if !self.path.is_empty() {
             write!(f, "{}: ", self.path)?;
         }

@@ -79,6 +79,11 @@ const SCHEMA_HELP: &str = "\
 Put it beside your scenarios and name it in them: \"$schema\": \"scenario.schema.json\". Editors
 then complete keys and check them.";
 
+const CHECK_SCENARIO_HELP: &str = "\
+With --json, standard output gets one object, and the exit code is 2 as well if there are problems:
+  {\"problems\": [{\"file\", \"path\", \"rule\", \"value\", \"suggestion\"}, …],
+   \"warnings\": [{\"path\", \"text\", …}, …]}";
+
 const COMPLETIONS_HELP: &str = "\
   ttb completions bash > ~/.local/share/bash-completion/completions/ttb
   ttb completions fish > ~/.config/fish/completions/ttb.fish
@@ -102,12 +107,16 @@ pub enum Command {
     #[command(after_help = export_ssp::HELP)]
     ExportSsp(ExportSsp),
     /// Check a scenario and print all its problems
+    #[command(after_help = CHECK_SCENARIO_HELP)]
     CheckScenario {
-        /// The scenario file
-        scenario: PathBuf,
+        /// The scenario file [default: the bundled ICE 3 over a cable-stayed bridge]
+        scenario: Option<PathBuf>,
         /// Other values for keys of the scenario
         #[command(flatten)]
         set: Set,
+        /// Print problems and warnings as JSON, for programs
+        #[arg(long)]
+        json: bool,
     },
     /// Show what engineers check first of a bridge: mass, reactions, mechanisms, lowest frequencies
     #[command(
