@@ -1,5 +1,6 @@
 """The examples in README.md and docs/ work: their Python runs beside R1's FMUs and results, their scenarios have no problems."""
 
+import os
 import re
 import subprocess
 import sys
@@ -40,9 +41,11 @@ def test_the_readme_shows_an_fmu_in_fmpy_and_a_scenario():
 
 
 @pytest.mark.parametrize("snippet", snippets("python"))
-def test_a_snippet_runs(snippet, folder):
-    """In a fresh interpreter."""
-    done = subprocess.run([sys.executable, "-c", snippet], cwd=folder, capture_output=True, text=True, timeout=120)
+def test_a_snippet_runs(snippet, folder, ttb):
+    """In a fresh interpreter, as if the wheel were installed."""
+    environment = dict(os.environ, PYTHONPATH=str(REPOSITORY / "python"), TTB=str(ttb.path))
+    command = [sys.executable, "-c", snippet]
+    done = subprocess.run(command, cwd=folder, env=environment, capture_output=True, text=True, timeout=120)
     assert done.returncode == 0, done.stderr
 
 
