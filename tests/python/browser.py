@@ -78,6 +78,10 @@ class Browser:
 
     def open(self, address):
         self.send("Page.navigate", url=address)
+        time.sleep(0.1)
+        if self.evaluate("location.href") == "about:blank":
+            # The first page of a new window came in between.
+            self.send("Page.navigate", url=address)
         self.wait("document.documentElement.dataset.ready === 'true'")
 
     def evaluate(self, expression):
@@ -90,7 +94,9 @@ class Browser:
         begin = time.monotonic()
         known = f"((found) => found instanceof Node || found)(document.body && ({expression}))"
         while not (value := self.evaluate(known)):
-            assert time.monotonic() - begin < seconds, f"{expression}: not within {seconds} s"
+            assert time.monotonic() - begin < seconds, (
+                f"{expression}: not within {seconds} s at {self.evaluate('location.href')}; {self.complaints()}"
+            )
             time.sleep(0.02)
         return value
 

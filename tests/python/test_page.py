@@ -101,7 +101,7 @@ def test_vehicles_on_an_irregular_track(clean):
     assert took < float(os.environ.get("TTB_SECONDS", 30))
     clean.click("#show")
     clean.wait("document.querySelector('#film input[type=range]')", 60)
-    assert clean.evaluate("document.querySelectorAll('#film .chart svg').length") == 1
+    assert clean.evaluate("document.querySelectorAll('#film .chart svg[role=img]').length") == 1
 
 
 def test_a_cancelled_computation_ends_at_once_and_the_page_goes_on(clean):

@@ -19,6 +19,9 @@ use minijinja::syntax::SyntaxConfig;
 use minijinja::value::Serde;
 use minijinja::{AutoEscape, Environment};
 
+/// The one script of a page.
+pub const SCRIPT: &str = include_str!("../templates/script.js");
+
 /// The report could not be made: a fault of its template.
 #[derive(Debug, thiserror::Error)]
 #[error("the report's template: {0}")]

@@ -57,9 +57,9 @@ async function look() {
   const { scenario, request } = collect(axles);
   command(request);
   try {
-    const seen = await engine.call("look", { text: JSON.stringify(scenario), train: request.trains[0] ?? "" });
+    const seen = await engine.call("look", { text: JSON.stringify(scenario), asked: request });
     if (mine !== latest) return;
-    const others = report([], seen.warnings);
+    const others = report(seen.asked, seen.warnings);
     sketch(byId("sketch"), seen.sketch);
     byId("modes-section").hidden = seen.modes.length === 0;
     modes(byId("modes"), seen.sketch, seen.modes);
@@ -74,6 +74,7 @@ async function look() {
 
 let timer;
 function typed() {
+  byId("stale").hidden = byId("verdict") === null;
   clearTimeout(timer);
   timer = setTimeout(look, 120);
 }
@@ -121,7 +122,6 @@ async function start(event) {
   try {
     tell("The plan is being made …");
     const plan = await engine.long("plan", { asked }, controller.signal);
-    report([]);
     const progress = (done, total) => {
       byId("progress").value = done / total;
       tell(`${done} of ${total} runs`);
@@ -130,7 +130,8 @@ async function start(event) {
     const records = await compute(engine, asked, plan, progress, controller.signal);
     const judges = { names: limits(), own: shown.ownLimits };
     const outcome = await engine.long("outcome", { asked, records, limits: judges }, controller.signal);
-    tell(`${outcome.runs} runs in ${((performance.now() - begin) / 1000).toFixed(1)} s`);
+    tell(`${outcome.runs} ${outcome.runs === 1 ? "run" : "runs"} in ${((performance.now() - begin) / 1000).toFixed(1)} s`);
+    byId("stale").hidden = true;
     shown.results({ engine, asked, plan, records, outcome, limits: judges, begin });
   } catch (error) {
     if (error.name === "AbortError") tell("Cancelled.");

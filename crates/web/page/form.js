@@ -145,8 +145,9 @@ function demand(scenario, axles) {
   const request = { trains: [], way: vehicles ? "coupled" : "auto", refine: fields.get("refine").input.checked, variants: fields.get("variants").input.checked ? "bounds" : "" };
   if (speeds !== "") request.speeds = speeds;
   const first = Number(/^[\d.]+/.exec(speeds)?.[0]);
-  const speed = first > 0 ? { km_h: first } : (scenario.train?.speed ?? { km_h: 100 });
-  const rest = { ...(scenario.train ?? {}), speed };
+  const rest = { ...(scenario.train ?? {}) };
+  if (first > 0) rest.speed = { km_h: first };
+  else if (!vehicles) rest.speed ??= { km_h: 100 };
   if (!vehicles) {
     delete rest.forces;
     if (axles) delete rest.cars;
@@ -258,7 +259,7 @@ export function fieldOf(path, message) {
   const key = /`([a-z_]+)`/.exec(message)?.[1];
   const missing = shown.find((of) => key && of.at === (bare ? `${bare}.${key}` : key));
   if (missing) return missing;
-  if (bare.startsWith("train.speed")) return fields.get("speeds");
+  if (bare.startsWith("train.speed") || (bare === "train" && key === "speed")) return fields.get("speeds");
   if (bare === "bridge.structure.spans" && !different) return fields.get("count");
   if (bare.startsWith("bridge.structure.first_frequency")) return fields.get("first_frequency");
   if (bare.startsWith("irregularity.seed")) return fields.get("seeds");

@@ -55,7 +55,7 @@ struct Text {
     #[serde(default)]
     file: String,
     #[serde(default)]
-    train: String,
+    asked: Asked,
 }
 
 impl Engine {
@@ -76,7 +76,7 @@ impl Engine {
             "about" => Ok(written(&About::new())),
             "look" => {
                 let of: Text = read(body)?;
-                Ok(written(&look::look(&of.text, &of.train, &self.folder, &self.room)?))
+                Ok(written(&look::look(&of.text, &of.asked, &self.folder, &self.room)?))
             }
             "axles" => axles(&read(body)?),
             "limits" => read::<Limits>(body)?.criteria().map(|criteria| written(&criteria.files)),
@@ -131,6 +131,10 @@ impl Engine {
 
 /// All runs of a request in the order in which they cost least together, and how many of them a call takes best.
 fn plan(session: &Session) -> Result<String, Fault> {
+    let problems = session.asked.problems();
+    if !problems.is_empty() {
+        return Err(Fault::new(problems.join("\n")));
+    }
     let (plan, runner) = (&session.expanded.plan, session.runner()?);
     let mut runs = plan.runs();
     if runs.is_empty() {

@@ -13,7 +13,7 @@ use ttb_scenario::{Checked, from_str_using};
 use ttb_trains::{axles_of, find};
 
 use crate::fault::{Fault, Told};
-use crate::request::SCENARIO;
+use crate::request::{Asked, SCENARIO};
 use crate::room::Room;
 
 /// Points of a drawing beyond which modes are not searched while somebody types.
@@ -24,6 +24,8 @@ const MODES: usize = 6;
 /// A scenario without problems.
 #[derive(Serialize)]
 pub struct Look {
+    /// What is wrong with the request beside the scenario.
+    asked: Vec<Told>,
     /// What is allowed, but rarely meant.
     warnings: Vec<Told>,
     /// What was chosen for keys that were left out, a sentence each.
@@ -65,12 +67,18 @@ struct Mode {
     shape: Vec<[f32; 3]>,
 }
 
-/// Looks at a scenario; the drawing shows the axles of `train`, if one of that name is meant to run.
+/// Looks at a scenario, and at what is asked beside it; the drawing shows the axles of the first train that is asked for.
 ///
 /// # Errors
-/// All its problems.
-pub fn look(text: &str, train: &str, folder: &Path, room: &Room) -> Result<Look, Fault> {
-    let checked = from_str_using(text, folder, SCENARIO, &[], &axles_of).map_err(|problems| Fault::of(&problems))?;
+/// All problems of the scenario, and of what is asked.
+pub fn look(text: &str, asked: &Asked, folder: &Path, room: &Room) -> Result<Look, Fault> {
+    let told = asked.problems().into_iter().map(|text| Told { path: String::new(), text });
+    let told: Vec<Told> = told.collect();
+    let checked = from_str_using(text, folder, SCENARIO, &[], &axles_of).map_err(|problems| {
+        let mut fault = Fault::of(&problems);
+        fault.problems.extend(told.clone());
+        fault
+    })?;
     room.scenario(&checked)?;
     let drawing = drawing(&checked.bridge);
     let small = drawing.as_ref().is_ok_and(|drawing| drawing.points.len() <= MANY);
@@ -85,18 +93,19 @@ pub fn look(text: &str, train: &str, folder: &Path, room: &Room) -> Result<Look,
     });
     let chosen = checked.chosen.iter().map(|one| format!("{} = {} {}: {}", one.key, one.value, one.unit, one.why));
     Ok(Look {
+        asked: told,
         warnings: warnings.collect(),
         chosen: chosen.collect(),
         resolved: serde_json::to_value(&checked.scenario).unwrap_or_default(),
         facts: if small { facts::of(&checked) } else { facts::of_track(&checked) },
-        sketch: with_train(sketch(&checked, drawing.ok().as_ref()), train),
+        sketch: with_train(sketch(&checked, drawing.ok().as_ref()), asked.trains.first()),
         modes,
     })
 }
 
 /// With the first train of a name in place of the scenario's own; a name that is none is told when runs are asked for.
-fn with_train(own: Sketch, name: &str) -> Sketch {
-    let found = if name.is_empty() { None } else { find(name).ok().and_then(|trains| trains.into_iter().next()) };
+fn with_train(own: Sketch, name: Option<&String>) -> Sketch {
+    let found = name.and_then(|name| find(name).ok()?.into_iter().next());
     match found {
         Some(train) => {
             let axles = train.axles.iter().map(|axle| [axle.x, axle.load]).collect();

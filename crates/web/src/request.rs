@@ -3,12 +3,15 @@
 use serde::{Deserialize, Serialize};
 use ttb_assessment::Criteria;
 use ttb_assessment::criterion::{self, DEFAULT};
-use ttb_campaign::list::Written;
+use ttb_campaign::list::{self, Written};
 use ttb_campaign::plan::{Plan, Rail, Run};
 use ttb_campaign::request::{Choice, Request, Variants};
+use ttb_scenario::bundled;
 
 use crate::fault::Fault;
 
+/// Largest seed: an FMI Integer holds it.
+const LARGEST_SEED: u64 = 2_147_483_647;
 /// How the page's scenario is called in messages, plans and saved folders.
 pub const SCENARIO: &str = "scenario.json";
 
@@ -35,6 +38,23 @@ pub struct Asked {
 }
 
 impl Asked {
+    /// What is wrong with trains, speeds and seeds, a sentence each that begins with the key.
+    pub fn problems(&self) -> Vec<String> {
+        let mut problems: Vec<String> = Vec::new();
+        let vehicles = self.way == Choice::Coupled;
+        for name in self.trains.iter().filter(|name| !(vehicles && bundled::cars(name).is_some())) {
+            problems.extend(ttb_trains::find(name).err().map(|found| format!("trains: {found}")));
+        }
+        problems.extend(match &self.speeds {
+            Some(speeds) => speeds.numbers().err().map(|error| format!("speeds: {error}")),
+            None if vehicles => None,
+            None => Some("speeds: axle loads need speeds, such as 140:420:5".into()),
+        });
+        let seeds = self.seeds.as_ref().and_then(|seeds| list::whole(seeds, LARGEST_SEED).err());
+        problems.extend(seeds.map(|error| format!("seeds: {error}")));
+        problems
+    }
+
     /// As a campaign understands it.
     pub fn request(&self) -> Request {
         let variants =

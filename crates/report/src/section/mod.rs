@@ -101,7 +101,7 @@ impl Page {
             files: input.files.clone(),
             warnings: input.warnings.clone(),
             style: include_str!("../../templates/style.css"),
-            script: include_str!("../../templates/script.js"),
+            script: crate::SCRIPT,
         }
     }
 }

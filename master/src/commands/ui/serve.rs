@@ -4,6 +4,7 @@ use std::io::{Cursor, Read};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::time::Duration;
 
+use sha2::{Digest, Sha256};
 use tiny_http::{Header, Method, Request as Http, Response, Server};
 use ttb_web::{Engine, page};
 
@@ -19,15 +20,35 @@ const PAUSE: Duration = Duration::from_millis(100);
 const MOST: u64 = 1 << 30;
 const JSON: &str = "application/json";
 
-/// What of the web a page may use: this program, and what the page makes itself.
-const POLICY: &str = "default-src 'none'; script-src 'self'; style-src 'self' 'unsafe-inline'; img-src 'self' data: blob:; \
-                      connect-src 'self'; worker-src blob:; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
+/// What of the web a page may use: this program, and what the page makes itself; a report that it opens has its one script.
+fn policy() -> String {
+    let report = base64(&Sha256::digest(ttb_report::SCRIPT));
+    format!(
+        "default-src 'none'; script-src 'self' 'sha256-{report}'; style-src 'self' 'unsafe-inline'; img-src 'self' data: \
+         blob:; connect-src 'self'; worker-src blob:; base-uri 'none'; form-action 'none'; frame-ancestors 'none'"
+    )
+}
+
+/// Bytes as browsers write digests.
+fn base64(bytes: &[u8]) -> String {
+    const LETTERS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    let mut text = String::new();
+    for three in bytes.chunks(3) {
+        let bits = three.iter().enumerate().fold(0u32, |bits, (i, byte)| bits | u32::from(*byte) << (16 - 8 * i));
+        for i in 0..4 {
+            let letter = LETTERS[(bits >> (18 - 6 * i) & 63) as usize];
+            text.push(if i <= three.len() { char::from(letter) } else { '=' });
+        }
+    }
+    text
+}
 
 /// The page and the engine behind the gate.
 pub struct Service {
     gate: Gate,
     engine: Engine,
     jobs: Jobs,
+    policy: String,
     /// The page itself, which names the engine and the scenario.
     index: String,
     scenario: Option<String>,
@@ -48,7 +69,7 @@ impl Service {
             named += r#"<meta name="scenario" content="scenario.json">"#;
         }
         let index = index.replace(r#"<meta name="engine" content="wasm">"#, &named);
-        Self { gate, engine, jobs: Jobs::default(), index, scenario }
+        Self { gate, engine, jobs: Jobs::default(), policy: policy(), index, scenario }
     }
 
     /// Answers until `stop` was asked.
@@ -70,7 +91,7 @@ impl Service {
             let Ok(Some(mut request)) = server.recv_timeout(PAUSE) else { continue };
             let answer = self.answer(&mut request);
             // A tab that was closed takes no answer; that is no error.
-            let _ = request.respond(with_headers(answer));
+            let _ = request.respond(with_headers(answer, &self.policy));
         }
     }
 
@@ -129,10 +150,10 @@ fn text(status: u16, why: &str) -> Answer {
     Answer { status, kind: "text/plain; charset=utf-8", body: format!("{why}\n").into_bytes() }
 }
 
-fn with_headers(answer: Answer) -> Response<Cursor<Vec<u8>>> {
+fn with_headers(answer: Answer, policy: &str) -> Response<Cursor<Vec<u8>>> {
     let headers = [
         ("Content-Type", answer.kind),
-        ("Content-Security-Policy", POLICY),
+        ("Content-Security-Policy", policy),
         ("Cache-Control", "no-store"),
         ("Cross-Origin-Opener-Policy", "same-origin"),
         ("Cross-Origin-Resource-Policy", "same-origin"),
@@ -144,4 +165,16 @@ fn with_headers(answer: Answer) -> Response<Cursor<Vec<u8>>> {
         response.add_header(header);
     }
     response
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn bytes_are_written_as_in_rfc_4648() {
+        for (bytes, text) in [("", ""), ("f", "Zg=="), ("fo", "Zm8="), ("foo", "Zm9v"), ("foobar", "Zm9vYmFy")] {
+            assert_eq!(base64(bytes.as_bytes()), text);
+        }
+    }
 }
