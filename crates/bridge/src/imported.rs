@@ -21,6 +21,24 @@ pub fn assemble(files: &Files, folder: &Path, stations: &[f64]) -> Result<Assemb
     from(files.read(folder).map_err(|problems| ModelError(problems.to_string()))?, stations)
 }
 
+/// As [`assemble`], with the rows of all components of the supports' motion in blocks ([`crate::across`]).
+///
+/// # Errors
+/// As [`assemble`], and matrices that do not tell how the supports move across.
+pub fn assemble_in_space(files: &Files, folder: &Path, stations: &[f64]) -> Result<Assembled, ModelError> {
+    let imported = files.read(folder).map_err(|problems| ModelError(problems.to_string()))?;
+    let [across, about] = crate::across::rows(&imported)?;
+    let mut lateral = Vec::with_capacity(2 * stations.len());
+    for block in [&across, &about] {
+        for (number, &x) in (1..).zip(stations) {
+            lateral.push(support(block, number, x)?);
+        }
+    }
+    let mut assembled = from(imported, stations)?;
+    assembled.supports.extend(lateral);
+    Ok(assembled)
+}
+
 /// From what was read.
 ///
 /// # Errors

@@ -1,6 +1,7 @@
 //! The bridge's interface list: names and order are the contract with the train–track side and with every master.
 
-use ttb_contract::{Interface, Kind, Variable};
+use ttb_contract::names::support;
+use ttb_contract::{Component, Interface, Kind, Variable};
 use ttb_scenario::spec::BridgeSpec;
 
 use crate::law::ratio;
@@ -44,12 +45,46 @@ const INPUT_MEANING: &[(&str, &str)] = &[
     ),
 ];
 
+/// A component beside the vertical one with the descriptions of its force, position and rate.
+type Lateral = (Component, [&'static str; 3]);
+
+/// Those components.
+const LATERAL: [Lateral; 2] = [
+    (
+        Component::Lateral,
+        [
+            "Lateral force of the track on the bridge, positive to the right",
+            "Lateral displacement of the deck's reference point at the support, positive to the right",
+            "Lateral velocity of the deck's reference point at the support, positive to the right",
+        ],
+    ),
+    (
+        Component::Roll,
+        [
+            "Moment of the track on the bridge about the track's axis, positive if it lowers the right side",
+            "Rotation of the deck about the track's axis at the support, positive if the right side is lowered",
+            "Angular velocity of the deck about the track's axis at the support, positive if the right side is lowered",
+        ],
+    ),
+];
+
+impl Structure {
+    /// The components beside the vertical one that its supports have.
+    fn lateral(&self) -> &'static [Lateral] {
+        &LATERAL[..self.ports().checked_div(self.stations).unwrap_or(1).clamp(1, 3) - 1]
+    }
+}
+
 /// The list for a structure.
 pub fn list(spec: &BridgeSpec, structure: &Structure) -> Interface {
-    let supports = 1..=structure.supports;
+    let supports = 1..=structure.stations;
     let forces = supports.clone().map(|i| {
         Variable::input(format!("support[{i}].force"), "N", "Force of the track on the bridge, positive down")
     });
+    let forces = forces.chain(structure.lateral().iter().flat_map(|(component, texts)| {
+        let name = component.force();
+        supports.clone().map(move |i| Variable::input(support(i, name), component.unit(), texts[0]))
+    }));
     let mut outputs: Vec<Variable> = Vec::new();
     outputs.extend(supports.clone().map(|i| {
         Variable::output(
@@ -58,7 +93,7 @@ pub fn list(spec: &BridgeSpec, structure: &Structure) -> Interface {
             "Displacement of the deck under the support, positive down",
         )
     }));
-    outputs.extend(supports.map(|i| {
+    outputs.extend(supports.clone().map(|i| {
         Variable::output(
             format!("support[{i}].velocity"),
             "m/s",
@@ -74,6 +109,12 @@ pub fn list(spec: &BridgeSpec, structure: &Structure) -> Interface {
         add("acceleration", "m/s2", "Acceleration of the monitored point; with held inputs its mean over the step");
         if point.moment.is_some() {
             add("moment", "N.m", "Bending moment of the deck at the monitored point, sagging positive");
+        }
+    }
+    for (component, texts) in structure.lateral() {
+        let motions = [component.position(), component.rate()].into_iter().zip(component.motion_units());
+        for ((name, unit), text) in motions.zip(&texts[1..]) {
+            outputs.extend(supports.clone().map(|i| Variable::output(support(i, name), unit, text)));
         }
     }
     let parameters = vec![

@@ -3,12 +3,14 @@
 //! Start with [`model::Bridge`]. A specification becomes a mesh ([`beams`] or [`frame`] → [`mesh`]), a mesh becomes
 //! equations ([`structure`], [`system`]), and the deck's path ([`deck`]) ties the track's supports to them.
 
+mod across;
 pub mod assembled;
 pub mod beams;
 pub mod deck;
 pub mod drawing;
 pub mod frame;
 pub mod full;
+mod ground;
 pub mod imported;
 pub mod inspect;
 pub mod interface;
@@ -21,6 +23,7 @@ pub mod model;
 pub mod outline;
 pub mod plane;
 pub mod prepared;
+mod read_out;
 pub mod reduced;
 pub mod reduction;
 pub mod rounding;

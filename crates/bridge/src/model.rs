@@ -6,12 +6,14 @@ use std::sync::Arc;
 use ttb_contract::{Interface, Model, ModelError, Prepare, Values};
 use ttb_dynamics::newmark::Motion;
 use ttb_dynamics::pool::Pool;
+use ttb_scenario::ground::GroundState;
 use ttb_scenario::spec::{BridgeSpec, StructureSpec};
 
 use crate::interface::{self, Held, Parameters};
 use crate::law::ratio;
-use crate::march::{Forces, March, Seen};
+use crate::march::{Forces, March};
 use crate::prepared::Prepared;
+use crate::read_out::{Acceleration, Shaken, carry, read_out};
 use crate::reduction::Accuracy;
 use crate::state::{Data, State};
 use crate::stored;
@@ -33,15 +35,12 @@ pub struct Bridge {
     pool: Pool<Data>,
     /// Size of the last macro step, s; before the first the nominal one.
     last_step: f64,
-}
-
-/// How the acceleration of a point is read.
-#[derive(Clone, Copy)]
-enum Acceleration {
-    /// ü of the state.
-    State,
-    /// (u̇ − u̇₀)/h, where a held input is the mean.
-    Mean(f64),
+    /// Start time, s.
+    begin: f64,
+    /// Forces with the ground's accelerations behind them.
+    shaken: Shaken,
+    /// The ground at the begin and the end of the last step.
+    carried: Option<[GroundState; 2]>,
 }
 
 impl Bridge {
@@ -83,6 +82,9 @@ impl Bridge {
             rest,
             pool: Pool::default(),
             last_step: spec.step,
+            begin: 0.0,
+            shaken: Shaken::default(),
+            carried: None,
         })
     }
 
@@ -128,7 +130,9 @@ impl Bridge {
         Ok(match self.prepared.structure.to_store() {
             None => vec![text(spec)?],
             Some(stored) => {
-                let spec = BridgeSpec { structure: StructureSpec::Stored, ..spec.clone() };
+                let ground = self.structure().ground.as_ref();
+                let ground_points = ground.map_or_else(Vec::new, |ground| ground.points.clone());
+                let spec = BridgeSpec { structure: StructureSpec::Stored, ground_points, ..spec.clone() };
                 vec![text(&spec)?, (stored::FILE, stored.bytes()?)]
             }
         })
@@ -163,39 +167,17 @@ impl Bridge {
     /// Writes all outputs of what the march saw last.
     fn read_out(&self, acceleration: Acceleration, values: &mut Values) {
         let outputs = &mut values.all[self.interface.outputs()];
-        read_out(&self.prepared.structure, self.march.law().stiffness, &self.march.seen, acceleration, outputs);
+        let structure = &self.prepared.structure;
+        read_out(structure, self.march.law().stiffness, &self.march.seen, acceleration, outputs);
+        if let (Some(ground), Some(ends)) = (&structure.ground, self.carried) {
+            carry(structure, ground, ends, acceleration, outputs);
+        }
     }
 
     /// Takes a written buffer as the state and gives the old one back.
     fn accept(&mut self, state: State) {
         self.pool.give(&state);
         self.state = state;
-    }
-}
-
-/// Writes all outputs; `stiffness` is the factor that moments share.
-fn read_out(structure: &Structure, stiffness: f64, seen: &Seen, acceleration: Acceleration, outputs: &mut [f64]) {
-    let Motion { u, v, a } = &seen.end;
-    let supports = structure.supports;
-    let (displacements, outputs) = outputs.split_at_mut(supports);
-    let (velocities, outputs) = outputs.split_at_mut(supports);
-    displacements.copy_from_slice(&u[..supports]);
-    velocities.copy_from_slice(&v[..supports]);
-    let mut outputs = outputs.iter_mut();
-    let mut put = |value: f64| {
-        if let Some(out) = outputs.next() {
-            *out = value;
-        }
-    };
-    for point in &structure.points {
-        let row = point.motion;
-        put(u[row]);
-        put(v[row]);
-        put(match acceleration {
-            Acceleration::State => a[row],
-            Acceleration::Mean(h) => (v[row] - seen.velocity_before[row]) / h,
-        });
-        point.moment.into_iter().for_each(|row| put(stiffness * u[row]));
     }
 }
 
@@ -225,7 +207,8 @@ impl Model for Bridge {
         self.experiment
     }
 
-    fn build(&mut self, values: &Values, _start: f64) -> Result<(), ModelError> {
+    fn build(&mut self, values: &Values, start: f64) -> Result<(), ModelError> {
+        self.begin = start;
         let group = &values.all[self.interface.parameters()];
         let parameters =
             Parameters::read(group).ok_or_else(|| ModelError("bridge: seven parameters are needed".into()))?;
@@ -246,7 +229,9 @@ impl Model for Bridge {
     fn equilibrium(&mut self, values: &mut Values) -> Result<(), ModelError> {
         let mut state = self.buffer();
         let data = only_holder(&mut state)?;
-        data.force.copy_from_slice(&values.all[self.interface.inputs()]);
+        data.force.fill(0.0);
+        let inputs = &values.all[self.interface.inputs()];
+        data.force[..inputs.len()].copy_from_slice(inputs);
         data.pending = None;
         let unknowns = self.prepared.structure.system.unknowns();
         let Motion { u, v, a } = &mut data.motion;
@@ -258,6 +243,7 @@ impl Model for Bridge {
         let solved = self.prepared.structure.system.statics(self.march.law(), u);
         solved.map_err(|e| ModelError(format!("bridge: {e}")))?;
         self.march.seen.read(&self.prepared.structure, &data.motion);
+        self.carried = self.prepared.structure.ground.as_ref().map(|ground| [ground.at(self.begin); 2]);
         self.read_out(Acceleration::State, values);
         self.accept(state);
         self.last_step = self.march.steps.nominal();
@@ -270,12 +256,19 @@ impl Model for Bridge {
         Ok(())
     }
 
-    fn step(&mut self, values: &mut Values, _t: f64, h: f64) -> Result<(), ModelError> {
+    fn step(&mut self, values: &mut Values, t: f64, h: f64) -> Result<(), ModelError> {
         let inputs = self.interface.inputs();
         let rates = values.has_rates.then_some(&values.rates[..]);
         let mut state = self.buffer();
         let data = only_holder(&mut state)?;
-        let forces = Forces { values: &values.all[inputs], rates, held: self.held() };
+        let mut forces = Forces { values: &values.all[inputs], rates, held: self.held() };
+        if let Some(ground) = &self.prepared.structure.ground {
+            let ends = [ground.at(t), ground.at(t + h)];
+            self.shaken.fill(&forces, ends.map(|end| end.acceleration), h);
+            self.carried = Some(ends);
+            forces.values = &self.shaken.values;
+            forces.rates = rates.map(|_| &self.shaken.rates[..]);
+        }
         let acceleration = if forces.end_is_known() { Acceleration::State } else { Acceleration::Mean(h) };
         self.march.run(&self.prepared, &self.state, forces, h, data)?;
         self.read_out(acceleration, values);
@@ -305,8 +298,10 @@ impl Model for Bridge {
     fn directional_derivative(&mut self, has_rates: bool, seed: &[f64], out: &mut [f64]) -> Result<(), ModelError> {
         let (mut state, h) = (self.buffer(), self.last_step);
         let data = only_holder(&mut state)?;
-        let constant = vec![0.0; seed.len()];
-        let forces = Forces { values: seed, rates: has_rates.then_some(&constant[..]), held: self.held() };
+        let constant = vec![0.0; self.prepared.structure.supports];
+        let mut changes = constant.clone();
+        changes[..seed.len()].copy_from_slice(seed);
+        let forces = Forces { values: &changes, rates: has_rates.then_some(&constant[..]), held: self.held() };
         let acceleration = if forces.end_is_known() { Acceleration::State } else { Acceleration::Mean(h) };
         self.march.run(&self.prepared, &self.rest, forces, h, data)?;
         read_out(&self.prepared.structure, self.march.law().stiffness, &self.march.seen, acceleration, out);

@@ -7,22 +7,14 @@ use ttb_scenario::types::{Direction, Point};
 use crate::assembled::{Assembled, Monitor};
 use crate::deck::{Deck, Row};
 use crate::mesh::Mesh;
+use crate::rows::sparse;
 
 /// Meshes and assembles; the supports stand on the deck.
 ///
 /// # Errors
 /// Anything in the specification that cannot be: the message names it.
 pub fn assemble(spec: &BridgeSpec) -> Result<Assembled, ModelError> {
-    let mesh = match &spec.structure {
-        StructureSpec::Beams { spans, continuous } => {
-            if let Some(point) = spec.points.iter().find(|p| p.direction == Direction::X) {
-                return Err(ModelError(format!("bridge: point {}: beams move only along z", point.name)));
-            }
-            crate::beams::mesh(spans, *continuous)?
-        }
-        StructureSpec::Frame(frame) => crate::frame::mesh(frame)?,
-        _ => return Err(ModelError("bridge: this structure is not plane".into())),
-    };
+    let mesh = mesh(spec)?;
     let deck = Deck::new(&mesh)?;
     let supports = support_rows(&mesh, &deck, &spec.supports)?;
     let (monitors, points) = monitor_rows(&mesh, &deck, &spec.points)?;
@@ -32,6 +24,36 @@ pub fn assemble(spec: &BridgeSpec) -> Result<Assembled, ModelError> {
     let mass = mesh.mass();
     let names = Box::new(move |dof| mesh.describe(dof));
     Ok(Assembled { equations, nodes, node_of, names, supports, monitors, points, mass, digits: None })
+}
+
+fn mesh(spec: &BridgeSpec) -> Result<Mesh, ModelError> {
+    Ok(match &spec.structure {
+        StructureSpec::Beams { spans, continuous } => {
+            if let Some(point) = spec.points.iter().find(|p| p.direction == Direction::X) {
+                return Err(ModelError(format!("bridge: point {}: beams move only along z", point.name)));
+            }
+            crate::beams::mesh(spans, *continuous)?
+        }
+        StructureSpec::Frame(frame) => crate::frame::mesh(frame)?,
+        _ => return Err(ModelError("bridge: this structure is not plane".into())),
+    })
+}
+
+/// −M r of a rigid translation across, which a plane bridge does not know, and down.
+///
+/// # Errors
+/// As [`assemble`].
+pub fn inertia(spec: &BridgeSpec) -> Result<[Row; 2], ModelError> {
+    let mesh = mesh(spec)?;
+    let mut load = vec![0.0; mesh.ndof];
+    for element in &mesh.elements {
+        let mass = element.frame.mass_matrix();
+        for (i, dof) in mesh.element_dofs(element).into_iter().enumerate() {
+            // Down is the second motion of a node.
+            dof.into_iter().for_each(|dof| load[dof as usize] -= mass[(i, 1)] + mass[(i, 4)]);
+        }
+    }
+    Ok([Row::new(), sparse(&load)])
 }
 
 fn support_rows(mesh: &Mesh, deck: &Deck, stations: &[f64]) -> Result<Vec<Row>, ModelError> {

@@ -70,6 +70,8 @@ impl Prepared {
         let shared = own.structure == spec.structure
             && (own.modes, own.reduction) == (spec.modes, spec.reduction)
             && own.supports == spec.supports
+            && own.space == spec.space
+            && (&own.ground, &own.ground_points) == (&spec.ground, &spec.ground_points)
             && own.points == spec.points
             && same_law(&own.damping, &spec.damping);
         let of_reduction = |spec: &BridgeSpec| (spec.step, spec.newmark, spec.damping.clone());

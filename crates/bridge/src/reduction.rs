@@ -67,8 +67,16 @@ pub struct Built {
     pub remark: Option<String>,
 }
 
-/// Builds the model from the matrices and the factor of K₀; B are the first of the `rows`, one for each of the `stations`
-/// where the supports stand (m).
+/// Where the track's supports stand, and how many rows they have.
+#[derive(Clone, Copy)]
+pub struct Supports<'a> {
+    /// m from the bridge's begin.
+    pub stations: &'a [f64],
+    /// One a station, or three: down, across and about the track, in blocks.
+    pub ports: usize,
+}
+
+/// Builds the model from the matrices and the factor of K₀; B are the first of the `rows`, those of the supports.
 ///
 /// # Errors
 /// Dashpots, which couple the modes; K̂ is not positive definite.
@@ -78,7 +86,7 @@ pub fn build(
     law: &Law,
     newmark: Newmark,
     rows: &[Row],
-    stations: &[f64],
+    supports: Supports,
     wish: &Reduction,
 ) -> Result<Built, ModelError> {
     if pencil.has_dashpots() {
@@ -90,23 +98,23 @@ pub fn build(
         return Err(ModelError(rule.into()));
     }
     let failed = |e: FactorError| ModelError(format!("bridge: {e}"));
-    let supports = stations.len();
+    let Supports { ports, .. } = supports;
     let sparse = Arc::new(Rows::new(rows));
     let full = Arc::new(Full::new(Arc::clone(pencil), None, Default::default()));
-    let full = full.prepare(law, newmark, &sparse, supports).map_err(failed)?;
-    let truth = probe(&*full, &sparse, stations, pencil.ndof(), newmark.h);
+    let full = full.prepare(law, newmark, &sparse, ports).map_err(failed)?;
+    let truth = probe(&*full, &sparse, supports, pencil.ndof(), newmark.h);
     drop(full);
     let [c_k, c_m] = law.effective(&newmark);
     let mut hertz = wish.highest_frequency.unwrap_or(FIRST);
     // Between statics and a step, on a logarithmic scale.
     let between = std::f64::consts::TAU * hertz * (c_m / c_k).sqrt();
     let mut answers = Answers::default();
-    answers.add(pencil, Shifted { factor: stiffness, stiffness: 1.0, mass: 0.0 }, rows, supports);
+    answers.add(pencil, Shifted { factor: stiffness, stiffness: 1.0, mass: 0.0 }, rows, ports);
     for [stiffness, mass] in [[1.0, between], [c_k, c_m]] {
         let factor = pencil.factor(stiffness, mass, 0.0).map_err(failed)?;
-        answers.add(pencil, Shifted { factor: &factor, stiffness, mass }, rows, supports);
+        answers.add(pencil, Shifted { factor: &factor, stiffness, mass }, rows, ports);
     }
-    let mut excited = Excited::new(pencil, stiffness, &rows[..supports]);
+    let mut excited = Excited::new(pencil, stiffness, &rows[..ports]);
     loop {
         let ritz = excited.modes(std::f64::consts::TAU * hertz, MOST);
         let basis = reduce(&answers, &excited, &ritz, rows, NEGLIGIBLE);
@@ -115,10 +123,10 @@ pub fn build(
         let rows = Rows::Single(basis.shapes.single());
         let system = Arc::new(Reduced::new(basis.omega2));
         let shared = Arc::new(rows);
-        let stepper = Arc::clone(&system).prepare(law, newmark, &shared, supports).map_err(failed)?;
-        let seen = probe(&*stepper, &shared, stations, system.unknowns(), newmark.h);
+        let stepper = Arc::clone(&system).prepare(law, newmark, &shared, ports).map_err(failed)?;
+        let seen = probe(&*stepper, &shared, supports, system.unknowns(), newmark.h);
         drop(stepper);
-        let [displacement, acceleration] = [0, 1].map(|i| difference(&seen[i], &truth[i]));
+        let [displacement, acceleration] = [0, 1].map(|i| supports.difference(&seen[i], &truth[i], shared.len()));
         let accuracy = Accuracy { modes, pseudo_modes, highest_frequency: hertz, displacement, acceleration };
         if acceleration.is_nan() {
             return Err(ModelError(
@@ -140,14 +148,14 @@ pub fn build(
 }
 
 /// Displacements and accelerations of all rows under the probe load, step by step.
-fn probe(step: &dyn Step, rows: &Rows, stations: &[f64], unknowns: usize, h: f64) -> [Vec<f64>; 2] {
+fn probe(step: &dyn Step, rows: &Rows, supports: Supports, unknowns: usize, h: f64) -> [Vec<f64>; 2] {
     let (mut base, mut next, mut work) = (Base::default(), Motion::default(), Work::default());
     base.motion = Motion::rest(unknowns);
     let (mut displacements, mut accelerations) = (Vec::new(), Vec::new());
-    let mut forces = vec![0.0; stations.len()];
+    let mut forces = vec![0.0; supports.ports];
     let mut seen = vec![0.0; rows.len()];
     for n in 1..=PROBE {
-        load(stations, n as f64 * h, &mut forces);
+        supports.load(n as f64 * h, &mut forces);
         step.begin(&mut base, &mut work);
         step.finish(&base, &forces, &mut next, &mut work);
         for (values, kept) in [(&next.u, &mut displacements), (&next.a, &mut accelerations)] {
@@ -157,6 +165,31 @@ fn probe(step: &dyn Step, rows: &Rows, stations: &[f64], unknowns: usize, h: f64
         std::mem::swap(&mut base.motion, &mut next);
     }
     [displacements, accelerations]
+}
+
+impl Supports<'_> {
+    /// Forces of the probe at a time; in space a fifth of them across, and their moment about the track with a lever of 0.2 m.
+    fn load(self, t: f64, forces: &mut [f64]) {
+        let (down, others) = forces.split_at_mut(self.stations.len());
+        load(self.stations, t, down);
+        for (block, share) in others.chunks_mut(self.stations.len().max(1)).zip([0.2, 0.2]) {
+            block.iter_mut().zip(&*down).for_each(|(force, down)| *force = share * down);
+        }
+    }
+
+    /// Greatest difference relative to the greatest value, the worst of: down and monitored points, across, about the track.
+    fn difference(self, a: &[f64], b: &[f64], rows: usize) -> f64 {
+        let stations = self.stations.len();
+        if self.ports == stations {
+            return difference(a, b);
+        }
+        let block = |row: usize| if row < self.ports { row / stations.max(1) } else { 0 };
+        let of = |values: &[f64], wanted: usize| -> Vec<f64> {
+            let kept = values.iter().enumerate().filter(|(i, _)| block(i % rows) == wanted);
+            kept.map(|(_, value)| *value).collect()
+        };
+        largest((0..3).map(|i| difference(&of(a, i), &of(b, i))))
+    }
 }
 
 /// Forces of the probe at a time: axles of 150 kN in pairs over the whole bridge, each shared by the supports beside it.

@@ -4,6 +4,11 @@ use ttb_dynamics::dense::Dense;
 
 use crate::deck::Row;
 
+/// The entries of a vector that are not zero.
+pub fn sparse(values: &[f64]) -> Row {
+    (0..).zip(values.iter().copied()).filter(|(_, value)| *value != 0.0).collect()
+}
+
 /// A list of rows: sparse over degrees of freedom, or dense over modal coordinates φ_j.
 #[derive(Clone, Debug)]
 pub enum Rows {

@@ -13,7 +13,7 @@ use crate::deck::Row;
 use crate::full::Full;
 use crate::law::{law, ratio};
 use crate::reduced::Reduced;
-use crate::reduction::{self, Accuracy, Built};
+use crate::reduction::{self, Accuracy, Built, Supports};
 use crate::rows::Rows;
 use crate::stored::Source;
 use crate::system::System;
@@ -33,7 +33,8 @@ pub struct Solver {
 }
 
 impl Solver {
-    /// All degrees of freedom, the lowest modes, or a reduced model; `rows` are those of supports and monitors.
+    /// All degrees of freedom, the lowest modes, or a reduced model; `rows` are those of supports, as many as `ports`, and
+    /// monitors.
     ///
     /// # Errors
     /// The reduced model cannot be made.
@@ -43,14 +44,22 @@ impl Solver {
         statics: Arc<Factor>,
         mut modes: Modes,
         rows: &[Row],
+        ports: usize,
     ) -> Result<Self, ModelError> {
         // Plane models and lowest modes are made anew from their few numbers.
         let small = matches!(spec.structure, StructureSpec::Beams { .. } | StructureSpec::Frame(_));
         if let Some(wish) = &spec.reduction {
             let law = law(&spec.damping, &modes.omega2, ratio(&spec.damping), 1.0, 1.0)?;
             let newmark = Newmark::new(spec.newmark.gamma, spec.newmark.beta, spec.step);
-            let Built { system, rows, accuracy, remark } =
-                reduction::build(&pencil, &statics, &law, newmark, rows, &spec.supports, wish)?;
+            let Built { system, rows, accuracy, remark } = reduction::build(
+                &pencil,
+                &statics,
+                &law,
+                newmark,
+                rows,
+                Supports { stations: &spec.supports, ports },
+                wish,
+            )?;
             let source = Some(Source::Reduced { omega2: system.omega2().to_vec() });
             return Ok(Self { system: Arc::new(system), rows, accuracy: Some(accuracy), source, remark });
         }

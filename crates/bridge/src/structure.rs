@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use ttb_contract::ModelError;
+use ttb_contract::{Component, ModelError};
 use ttb_scenario::spec::{BridgeSpec, StructureSpec};
 use ttb_scenario::types::Damping;
 use ttb_sparse::modes::{Modes, lowest};
@@ -11,6 +11,7 @@ use ttb_sparse::{FactorError, Layout, Pencil};
 
 use crate::assembled::{Assembled, Monitor, Names};
 use crate::deck::Row;
+use crate::ground::{Ground, Inertia};
 use crate::law::{Law, law, modes_needed};
 use crate::reduction::Accuracy;
 use crate::rounding;
@@ -18,7 +19,7 @@ use crate::rows::Rows;
 use crate::solver::Solver;
 use crate::stored::{Restored, Source, Stored};
 use crate::system::System;
-use crate::{imported, plane, space};
+use crate::{ground, imported, plane, space};
 
 /// Equations and rows of a bridge.
 pub struct Structure {
@@ -33,16 +34,20 @@ pub struct Structure {
     damping: Damping,
     /// The equations, in the form they are solved in.
     pub system: Arc<dyn System>,
-    /// R: one row per support, then those of the monitored points.
+    /// R: one row per port of a support, then those of the monitored points.
     pub rows: Arc<Rows>,
-    /// Number of supports.
+    /// Number of forces: one a support, or, in space, three, in blocks of one component each; then those of the ground.
     pub supports: usize,
+    /// Number of supports of the track.
+    pub stations: usize,
     /// The monitored points; they read [`Structure::rows`].
     pub points: Vec<Monitor>,
     /// A reduced model's error against all degrees of freedom.
     pub accuracy: Option<Accuracy>,
     /// What its FMU keeps in a file of its own.
     source: Option<Source>,
+    /// Motion of the ground, whose accelerations are the last forces.
+    pub ground: Option<Ground>,
     /// What its user should know, a sentence each.
     pub remarks: Vec<String>,
 }
@@ -55,33 +60,48 @@ impl Structure {
     pub fn new(spec: &BridgeSpec, folder: &Path) -> Result<Self, ModelError> {
         let assembled = match &spec.structure {
             StructureSpec::Beams { .. } | StructureSpec::Frame(_) => plane::assemble(spec)?,
-            StructureSpec::FiniteElements(model) => space::assemble(model, &spec.supports, &spec.points)?,
+            StructureSpec::FiniteElements(model) => {
+                let components = if spec.space { &Component::ALL[..] } else { &[Component::Vertical] };
+                space::assemble_for(model, &spec.supports, components, &spec.points)?
+            }
+            StructureSpec::Matrices { files, folder, .. } if spec.space => {
+                imported::assemble_in_space(files, folder, &spec.supports)?
+            }
             StructureSpec::Matrices { files, folder, .. } => imported::assemble(files, folder, &spec.supports)?,
             StructureSpec::Stored => return Self::stored(spec, folder),
         };
-        Self::from_assembled(assembled, spec)
+        Self::from_assembled(assembled, spec, ground::rows(spec)?)
     }
 
-    fn from_assembled(assembled: Assembled, spec: &BridgeSpec) -> Result<Self, ModelError> {
-        let Assembled { equations, nodes, node_of, names, supports, monitors, mut points, mass, digits } = assembled;
+    fn from_assembled(
+        assembled: Assembled,
+        spec: &BridgeSpec,
+        ground: Option<(Ground, Inertia)>,
+    ) -> Result<Self, ModelError> {
+        let Assembled { equations, nodes, node_of, names, mut supports, monitors, mut points, mass, digits } =
+            assembled;
         let ndof = equations.ndof();
         let layout = Layout { node_of, place: nodes, last: eliminated_last(&supports, ndof), order: Vec::new() };
         let pencil = Arc::new(equations.finish_with(&layout).map_err(in_bridge)?);
         let statics = Arc::new(pencil.factor(1.0, 0.0, 0.0).map_err(|e| explain(&names, e))?);
-        let mut remarks: Vec<String> = rounding::check(&pencil, &statics, &supports)?.into_iter().collect();
-        remarks.extend(
-            rounding::of_digits(&pencil, &statics, &supports, digits).as_ref().and_then(rounding::Digits::remark),
-        );
+        let down = &supports[..spec.supports.len()];
+        let mut remarks: Vec<String> = rounding::check(&pencil, &statics, down)?.into_iter().collect();
+        remarks
+            .extend(rounding::of_digits(&pencil, &statics, down, digits).as_ref().and_then(rounding::Digits::remark));
         let needed = modes_needed(&spec.damping, spec.modes);
         let modes =
             if needed == 0 { Modes::default() } else { lowest(&pencil, &statics, needed).map_err(in_bridge)? };
+        let ground = ground.map(|(ground, inertia)| {
+            supports.extend(inertia);
+            ground
+        });
         let first_monitor = supports.len();
         for point in &mut points {
             point.motion += first_monitor;
             point.moment.iter_mut().for_each(|row| *row += first_monitor);
         }
         let (omega2, rows, damping) = (modes.omega2.clone(), [supports, monitors].concat(), spec.damping.clone());
-        let solver = Solver::new(spec, Arc::clone(&pencil), statics, modes, &rows)?;
+        let solver = Solver::new(spec, Arc::clone(&pencil), statics, modes, &rows, first_monitor)?;
         let Solver { system, rows, accuracy, source, remark } = solver;
         remarks.extend(remark);
         let (pencil, supports) = (Some(pencil), first_monitor);
@@ -94,9 +114,11 @@ impl Structure {
             system,
             rows: Arc::new(rows),
             supports,
+            stations: spec.supports.len(),
             points,
             accuracy,
             source,
+            ground,
             remarks,
         })
     }
@@ -107,7 +129,33 @@ impl Structure {
         let Stored { ndof, mass, omega2, supports, points, accuracy, .. } = stored;
         let (damping, rows) = (spec.damping.clone(), Arc::new(rows));
         let (source, remarks) = (None, Vec::new());
-        Ok(Self { ndof, mass, pencil, omega2, damping, system, rows, supports, points, accuracy, source, remarks })
+        let stations = spec.supports.len();
+        let ground = ground::rows(spec)?.map(|(ground, _)| ground);
+        let forces = supports - if ground.is_some() { ground::ROWS.min(supports) } else { 0 };
+        if ![stations, 3 * stations].contains(&forces) {
+            return Err(in_bridge(format_args!("{supports} ports are stored for {stations} supports")));
+        }
+        Ok(Self {
+            ndof,
+            mass,
+            pencil,
+            omega2,
+            damping,
+            system,
+            rows,
+            supports,
+            stations,
+            points,
+            accuracy,
+            source,
+            ground,
+            remarks,
+        })
+    }
+
+    /// Forces that come from the track.
+    pub fn ports(&self) -> usize {
+        self.supports - if self.ground.is_some() { ground::ROWS.min(self.supports) } else { 0 }
     }
 
     /// What its FMU keeps in a file of its own, if it does.

@@ -8,7 +8,10 @@ use girders::*;
 use serde_json::{Value, json};
 use ttb_bridge::Bridge;
 use ttb_bridge::space::{Statics, assemble, self_check};
-use ttb_scenario::types::{Direction, Model};
+use ttb_contract::{Instance, Model as _};
+use ttb_scenario::ground::GroundSeries;
+use ttb_scenario::spec::{BridgeSpec, StructureSpec};
+use ttb_scenario::types::{Damping, DeckCarrier, Direction, Model, Point, RayleighAt, Reduction};
 
 #[test]
 fn a_beam_held_to_its_plane_is_the_plane_beam() {
@@ -225,4 +228,237 @@ fn the_ground_carries_the_weight_and_nothing_else() {
     let one = self::solved(&alone, &[], &[]);
     let check = self_check(&alone, Statics::Solved(&mut |x| one.solve(x))).unwrap();
     near("half", check.reactions.unwrap().groups[0].force[2], MASS * L * 9.81, 1e-9);
+}
+
+/// A run in space over the girder: three forces and motions at each of the supports at a quarter, the middle and 0.7 L.
+fn in_space(model: Model) -> BridgeSpec {
+    let spec = common::bridge(StructureSpec::FiniteElements(Box::new(model)), L, 1, 1e-3);
+    BridgeSpec { supports: vec![5.0, 10.0, 14.0], points: Vec::new(), damping: Damping::None, space: true, ..spec }
+}
+
+/// Motions (z, y, about x at each support) of a structure at rest under forces at its supports.
+fn at_rest(spec: &BridgeSpec, forces: &[(&str, f64)], motions: &[&str]) -> Vec<f64> {
+    let mut instance = Instance::new(Bridge::new(spec.clone()).unwrap_or_else(|error| panic!("{error}")));
+    instance.enter_initialization(0.0).unwrap();
+    forces.iter().for_each(|(name, force)| common::set(&mut instance, name, *force));
+    motions.iter().map(|name| common::get(&mut instance, name)).collect()
+}
+
+/// EI of lateral bending.
+const EI_Z: f64 = 3e10 * 0.4;
+const MIDDLE: [&str; 3] = ["support[2].displacement", "support[2].displacement_y", "support[2].rotation_x"];
+
+#[test]
+fn forces_across_and_about_the_track_bend_and_twist_the_deck() {
+    let [bend, sway, twist] = [L.powi(3) / (48.0 * EI), L.powi(3) / (48.0 * EI_Z), L / (4.0 * GJ)];
+    let centred = in_space(girder(20, 0.0));
+    let across = at_rest(&centred, &[("support[2].force_y", 1e4)], &MIDDLE);
+    near("P L³/48 EI_z", across[1], 1e4 * sway, 1e-9);
+    let about = at_rest(&centred, &[("support[2].moment_x", 1e4)], &MIDDLE);
+    near("T L/4 GJ", about[2], 1e4 * twist, 1e-9);
+    let off = [across[0], across[2], about[0], about[1]];
+    assert!(off.iter().all(|x| x.abs() < 1e-15), "a force on the axis moves its own direction alone: {off:?}");
+    // Eccentric by y, the reference point above the axis by h: u_z = r y, u_y = r h.
+    let (y, h) = (1.2, 0.7);
+    let mut eccentric = girder(20, y);
+    eccentric.deck.z = Some(-h);
+    let eccentric = in_space(eccentric);
+    let down = at_rest(&eccentric, &[("support[2].force", 1e4)], &MIDDLE);
+    near("down, eccentric", down[0], 1e4 * (bend + y * y * twist), 1e-9);
+    near("sway of the reference point", down[1], 1e4 * h * y * twist, 1e-9);
+    near("twist", down[2], 1e4 * y * twist, 1e-9);
+    let across = at_rest(&eccentric, &[("support[2].force_y", 1e4)], &MIDDLE);
+    near("across, above the axis", across[1], 1e4 * (sway + h * h * twist), 1e-9);
+    near("down by a force across", across[0], 1e4 * h * y * twist, 1e-9);
+}
+
+/// On beams, on nodes, on shells: after a step.
+#[test]
+fn what_a_deck_answers_is_symmetric_in_all_components() {
+    let mut nodes = girder(20, 0.8);
+    nodes.deck.on = DeckCarrier::Nodes(vec![]);
+    nodes.deck.z = Some(-0.4);
+    let shells = model(&[slab(10, 4)]);
+    for model in [girder(20, 0.8), nodes, shells] {
+        let spec = in_space(model);
+        let names = |last: [&str; 3]| -> Vec<String> {
+            last.iter().flat_map(|last| (1..=3).map(move |i| format!("support[{i}].{last}"))).collect()
+        };
+        let forces = names(["force", "force_y", "moment_x"]);
+        let motions = names(["displacement", "displacement_y", "rotation_x"]);
+        let s: Vec<Vec<f64>> = forces
+            .iter()
+            .map(|force| {
+                let mut instance = common::stepping(&spec);
+                let zero = vec![0.0; 9];
+                common::drive(&mut instance, &zero, Some(&zero));
+                common::set(&mut instance, force, 1.0);
+                instance.step(0.0, 1e-3).unwrap();
+                motions.iter().map(|name| common::get(&mut instance, name)).collect()
+            })
+            .collect();
+        let largest = |i: usize, j: usize| (s[i][i] * s[j][j]).sqrt();
+        for (i, j) in (0..9).flat_map(|i| (0..i).map(move |j| (i, j))) {
+            assert!((s[i][j] - s[j][i]).abs() < 1e-10 * largest(i, j), "{i} {j}: {} {}", s[i][j], s[j][i]);
+            assert!(s[i][j].abs() <= largest(i, j));
+        }
+        assert!((0..9).all(|i| s[i][i] > 0.0));
+    }
+}
+
+/// In all degrees of freedom, in modes and reduced; the reduced one also from the file of its FMU.
+#[test]
+fn states_come_back_exactly_and_a_reduced_model_twists_as_the_full_one() {
+    let mut model = girder(20, 0.8);
+    model.deck.z = Some(-0.6);
+    let full =
+        BridgeSpec { damping: Damping::Rayleigh { ratio: 0.02, at: RayleighAt::Hz([4.0, 40.0]) }, ..in_space(model) };
+    let modes = BridgeSpec { modes: Some(30), ..full.clone() };
+    let reduced = BridgeSpec { reduction: Some(Reduction { error: 1e-4, ..Reduction::default() }), ..full.clone() };
+    let mut ends = Vec::new();
+    for spec in [&full, &modes, &reduced] {
+        let mut instance = common::stepping(spec);
+        let drive = |instance: &mut Instance<Bridge>, k: usize| {
+            let forces: Vec<f64> = (0..9).map(|i| 1e4 * ((i + 1) as f64 * 0.01 * k as f64).sin()).collect();
+            let rates: Vec<f64> =
+                (0..9).map(|i| 1e4 * ((i + 1) as f64 * 0.01 * (k + 1) as f64).sin() - forces[i]).collect();
+            common::drive(instance, &forces, Some(&rates.iter().map(|rate| 1e3 * rate).collect::<Vec<_>>()));
+            instance.step(1e-3 * k as f64, 1e-3).unwrap();
+        };
+        (0..60).for_each(|k| drive(&mut instance, k));
+        let saved = instance.save();
+        drive(&mut instance, 60);
+        let first = common::outputs(&mut instance);
+        drive(&mut instance, 61);
+        instance.restore(&saved).unwrap();
+        drive(&mut instance, 60);
+        assert_eq!(first, common::outputs(&mut instance), "repeated to the bit");
+        ends.push(first);
+    }
+    let scale = |block: usize| ends[0][3 * block..3 * block + 3].iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+    for block in [0, 2, 4] {
+        for i in 3 * block..3 * block + 3 {
+            let off = (ends[2][i] - ends[0][i]).abs() / scale(block);
+            assert!(off < 1e-3, "output {i}: {} instead of {}", ends[2][i], ends[0][i]);
+        }
+    }
+}
+
+#[test]
+fn a_plane_bridge_in_space_has_vertical_ports_alone() {
+    let plane = BridgeSpec { space: true, ..beams(vec![span(L, EI, MASS, 10)], 10, 1e-3) };
+    let bridge = Bridge::new(plane).unwrap();
+    let names: Vec<&str> = bridge.interface().variables().iter().map(|variable| variable.name.as_str()).collect();
+    assert!(!names.iter().any(|name| name.ends_with("force_y") || name.ends_with("rotation_x")), "{names:?}");
+}
+
+/// Matrices of the girder, z up and y to the left as another program may have them: the same answers as from the model.
+#[test]
+fn imported_matrices_sway_and_twist_as_their_model() {
+    let model = girder(20, 0.0);
+    let Solved { assembled, pencil, .. } = solved(&model, &[], &[]);
+    let n = pencil.ndof();
+    let folder = tempfile::tempdir().unwrap();
+    // Rows by node and direction; z and y change their signs, and so do their rotations.
+    let place = |row: usize| {
+        let name = (assembled.names)(row);
+        let node: usize = name.rsplit(' ').next().unwrap().parse().unwrap();
+        let freedom = ["x", "y", "z"].iter().position(|axis| name.contains(&format!(" {axis} of"))).unwrap();
+        (node, freedom + if name.starts_with("rotation") { 3 } else { 0 })
+    };
+    let sign = |freedom: usize| if freedom % 3 == 0 { 1.0 } else { -1.0 };
+    let mut rows = "row,node,direction\n".to_owned();
+    for row in 0..n {
+        let (node, freedom) = place(row);
+        rows += &format!("{},{},{}\n", row + 1, node + 1, ["x", "y", "z", "rx", "ry", "rz"][freedom]);
+    }
+    std::fs::write(folder.path().join("dofs.csv"), rows).unwrap();
+    for (name, matrix) in [("K", true), ("M", false)] {
+        let mut text = String::new();
+        for j in 0..n {
+            let (mut unit, mut column) = (vec![0.0; n], vec![0.0; n]);
+            unit[j] = 1.0;
+            if matrix {
+                pencil.add_stiffness(&unit, &mut column)
+            } else {
+                pencil.add_mass(&unit, &mut column)
+            }
+            for (i, value) in column.iter().enumerate().skip(j).filter(|(_, value)| **value != 0.0) {
+                let signs = sign(place(i).1) * sign(place(j).1);
+                text += &format!("{} {} {:.17e}\n", i + 1, j + 1, signs * value);
+            }
+        }
+        std::fs::write(folder.path().join(name), text).unwrap();
+    }
+    let supports: String = (1..20).map(|i| format!("{},{},z,-1\n", i, i + 1)).collect();
+    std::fs::write(folder.path().join("S.csv"), format!("x,node,direction,weight\n{supports}")).unwrap();
+    let files = ttb_import::Files {
+        stiffness: "K".into(),
+        mass: "M".into(),
+        dofs: Some("dofs.csv".into()),
+        supports: "S.csv".into(),
+        ..ttb_import::Files::default()
+    };
+    let own = in_space(model);
+    let structure = StructureSpec::Matrices { files, folder: folder.path().to_owned(), length: L };
+    let imported = BridgeSpec { structure, ..own.clone() };
+    let forces = [("support[1].force", 1e4), ("support[2].force_y", 2e4), ("support[3].moment_x", -3e4)];
+    let [ours, theirs] = [&own, &imported].map(|spec| at_rest(spec, &forces, &MIDDLE));
+    for (a, b) in ours.iter().zip(&theirs) {
+        near("imported", *b, *a, 1e-8);
+    }
+}
+
+/// A simply supported beam whose bearings are shaken by A sin ωt, undamped, from rest:
+///
+/// ```text
+/// u(L/2) = u_g + Σ (4/nπ) sin(nπ/2) D_n,   D_n = −A (sin ωt − ω/ω_n sin ω_n t)/(ω_n² − ω²),   ω_n = (nπ/L)² √(EI/m)
+/// ```
+#[test]
+fn shaken_bearings_move_the_deck_as_the_modes_of_a_beam_do() {
+    let (amplitude, omega, end) = (0.7, 9.0, 0.4);
+    let times: Vec<f64> = (0..=5000).map(|i| 1e-4 * f64::from(i)).collect();
+    let shake = |t: &f64| amplitude * (omega * t).sin();
+    let series = GroundSeries::new(times.clone(), times.iter().map(|t| [shake(t), -0.5 * shake(t)]).collect());
+    let relative = |ei: f64, t: f64| -> f64 {
+        let terms = (1..40).step_by(2).map(|n| {
+            let n = f64::from(n);
+            let own = (n * std::f64::consts::PI / L).powi(2) * (ei / MASS).sqrt();
+            let d = -amplitude * ((omega * t).sin() - omega / own * (own * t).sin()) / (own * own - omega * omega);
+            4.0 / (n * std::f64::consts::PI) * (n * std::f64::consts::FRAC_PI_2).sin() * d
+        });
+        terms.sum()
+    };
+    let middle = |direction| Point { name: "mid".into(), x: Some(0.5 * L), node: None, direction };
+    let ground = Some(series.clone());
+    let step = 2e-4;
+    let space = BridgeSpec { ground, points: vec![middle(Direction::Y)], step, ..in_space(girder(30, 0.0)) };
+    let reduced = BridgeSpec { reduction: Some(Reduction::default()), ..space.clone() };
+    let plane = BridgeSpec {
+        structure: beams(vec![span(L, EI, MASS, 30)], 10, step).structure,
+        points: vec![middle(Direction::Z)],
+        ..space.clone()
+    };
+    let moved = series.at(end).displacement;
+    for (name, spec, expected) in [
+        ("across", &space, moved[0] + relative(EI_Z, end)),
+        ("across, reduced", &reduced, moved[0] + relative(EI_Z, end)),
+        ("down, plane", &plane, moved[1] - 0.5 * relative(EI, end)),
+    ] {
+        let mut instance = common::stepping(spec);
+        let steps = (end / step).round() as usize;
+        (0..steps).for_each(|k| instance.step(k as f64 * step, step).unwrap());
+        near(name, common::get(&mut instance, "point[mid].displacement"), expected, 3e-4);
+        let at = if spec.points[0].direction == Direction::Y { "displacement_y" } else { "displacement" };
+        let seen = common::get(&mut instance, &format!("support[2].{at}"));
+        near(&format!("{name}: support"), seen, expected, 3e-4);
+    }
+    // Far slower than every mode: the deck goes along with the ground.
+    let slow = GroundSeries::new(vec![0.0, 50.0, 100.0], vec![[0.0; 2], [1e-4, -2e-4], [0.0; 2]]);
+    let mut instance = common::stepping(&BridgeSpec { ground: Some(slow.clone()), step: 0.02, ..space });
+    (0..2000).for_each(|k| instance.step(0.02 * f64::from(k), 0.02).unwrap());
+    let at = slow.at(40.0);
+    near("goes along across", common::get(&mut instance, "support[1].displacement_y"), at.displacement[0], 1e-4);
+    near("goes along down", common::get(&mut instance, "support[3].displacement"), at.displacement[1], 1e-4);
+    near("at its speed", common::get(&mut instance, "support[1].velocity_y"), at.velocity[0], 1e-3);
 }

@@ -34,7 +34,7 @@ impl OwnBridge {
             Deck::new(&spec.structure).ok_or_else(|| ModelError("bridge: a stored bridge has no path".into()))?;
         let ends = [&[0.0], &deck.inner_bearings[..], &[deck.length]].concat();
         let spans: Vec<[f64; 2]> = ends.windows(2).map(|pair| [pair[0], pair[1]]).collect();
-        let mut spec = BridgeSpec { step, ..spec.clone() };
+        let mut spec = BridgeSpec { step, space: false, ground: None, ..spec.clone() };
         let mut named = Vec::new();
         let plane = matches!(spec.structure, StructureSpec::Beams { .. } | StructureSpec::Frame(_));
         spec.supports = match &spec.structure {

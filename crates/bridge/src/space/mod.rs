@@ -20,12 +20,13 @@ mod solids;
 mod tied;
 mod track;
 
-use ttb_contract::ModelError;
+use ttb_contract::{Component, ModelError};
 use ttb_scenario::types::{Direction, Freedom, Model, Point};
 use ttb_sparse::Assembly;
 
 use crate::assembled::{Assembled, Monitor};
 use crate::deck::Row;
+use crate::rows::sparse;
 use diagonal::Diagonal;
 use elements::Placed;
 use freedoms::Freedoms;
@@ -39,13 +40,26 @@ pub use report::{Reaction, Reactions, SelfCheck};
 /// Of the motions that a mechanism leaves loose, so many are named.
 const NAMED: usize = 5;
 
-/// Numbers, assembles, and lays the track over the model: supports at `supports` (m from the bridge's begin) and the
-/// monitored `points`.
+/// As [`assemble_for`], for the vertical motion of the supports alone.
+///
+/// # Errors
+/// As [`assemble_for`].
+pub fn assemble(model: &Model, supports: &[f64], points: &[Point]) -> Result<Assembled, ModelError> {
+    assemble_for(model, supports, &[Component::Vertical], points)
+}
+
+/// Numbers, assembles, and lays the track over the model: supports at `supports` (m from the bridge's begin), a block of rows
+/// for each of the `components` of their motion, and the monitored `points`.
 ///
 /// # Errors
 /// What in the model cannot be, a mechanism that shows without factorising, a support or point where nothing carries;
 /// the message names element, node or station.
-pub fn assemble(model: &Model, supports: &[f64], points: &[Point]) -> Result<Assembled, ModelError> {
+pub fn assemble_for(
+    model: &Model,
+    supports: &[f64],
+    components: &[Component],
+    points: &[Point],
+) -> Result<Assembled, ModelError> {
     let freedoms = Freedoms::new(model)?;
     let mut system = System::new(&freedoms);
     for element in elements::all(model, &freedoms.index) {
@@ -61,11 +75,15 @@ pub fn assemble(model: &Model, supports: &[f64], points: &[Point]) -> Result<Ass
         return Err(ModelError(format!("bridge: mechanism: nothing resists {}", names.join(", "))));
     }
     let track = Track::new(model, &freedoms.index)?;
-    let station = |(number, x): (usize, &f64)| {
+    let station = |component: Component, number: usize, x: &f64| {
         let what = format!("support[{number}]");
-        freedoms.row(&track.at(*x, &what)?, &format!("{what} at x = {x} m"))
+        freedoms.row(&track.at(*x, component, &what)?, &format!("{what} at x = {x} m"))
     };
-    let supports = (1..).zip(supports).map(station).collect::<Result<_, _>>()?;
+    let block = |component: &Component| {
+        let (component, station) = (*component, &station);
+        (1..).zip(supports).map(move |(number, x)| station(component, number, x))
+    };
+    let supports = components.iter().flat_map(block).collect::<Result<_, _>>()?;
     let monitors = points.iter().map(|point| monitor(point, &freedoms, &track)).collect::<Result<_, _>>()?;
     let points = points.iter().enumerate();
     let points = points.map(|(motion, point)| Monitor { name: point.name.clone(), motion, moment: None }).collect();
@@ -83,11 +101,38 @@ pub fn assemble(model: &Model, supports: &[f64], points: &[Point]) -> Result<Ass
     })
 }
 
-/// Displacement of a point: down on the track's line, or of a node in its direction.
+/// −M r of rigid translations across and down, over the free motions; what moves with the bearings counts.
+///
+/// # Errors
+/// As [`assemble_for`].
+pub fn inertia(model: &Model) -> Result<[Row; 2], ModelError> {
+    let freedoms = Freedoms::new(model)?;
+    let mut loads = [vec![0.0; freedoms.motions.len()], vec![0.0; freedoms.motions.len()]];
+    for element in elements::all(model, &freedoms.index) {
+        let element = element?;
+        let (matrices, tied) = (element.kind.matrices(), freedoms.tied(&element.motions()));
+        let n = matrices.n;
+        for (load, axis) in loads.iter_mut().zip([1, 2]) {
+            for (i, row) in tied.t.iter().enumerate() {
+                let inertia: f64 = (axis..n).step_by(6).map(|j| matrices.m[i * n + j]).sum();
+                row.iter().for_each(|(at, weight)| load[tied.dofs[*at] as usize] -= weight * inertia);
+            }
+        }
+    }
+    Ok(loads.map(|load| sparse(&load)))
+}
+
+/// Displacement of a point: down or across on the track's line, or of a node in its direction.
 fn monitor(point: &Point, freedoms: &Freedoms, track: &Track) -> Result<Row, ModelError> {
     let what = format!("point {}", point.name);
     match (point.x, &point.node) {
-        (Some(x), None) => freedoms.row(&track.at(x, &what)?, &what),
+        (Some(x), None) => {
+            let along = match point.direction {
+                Direction::Y => Component::Lateral,
+                Direction::X | Direction::Z => Component::Vertical,
+            };
+            freedoms.row(&track.at(x, along, &what)?, &what)
+        }
         (None, Some(node)) => {
             let position = node.parse().ok().and_then(|number| freedoms.index.position(number));
             let position =

@@ -6,9 +6,15 @@
 //! nodes    u(x) = z_j + r_x,j (y − y_j) − r_y,j (x − x_j)     at the node nearest along x, then along y
 //! ```
 //!
+//! In space the reference point (x, y_d, z_d) of a support also moves across and turns about x:
+//!
+//! ```text
+//! d_y(x) = v(ξ) + r_z-part − r_x (z_d − z)        d_φ(x) = r_x(ξ)
+//! ```
+//!
 //! The same weights distribute a force, so that its power enters the model and an eccentric track twists the deck.
 
-use ttb_contract::ModelError;
+use ttb_contract::{Component, ModelError};
 use ttb_scenario::space::{Index, motion};
 use ttb_scenario::types::{Freedom, Model};
 
@@ -18,8 +24,9 @@ use super::freedoms::Weights;
 use super::kind::Kind;
 use super::solids::{self, Sections};
 
-/// Down.
+/// Down, and to the right.
 const DOWN: [f64; 3] = [0.0, 0.0, 1.0];
+const RIGHT: [f64; 3] = [0.0, 1.0, 0.0];
 
 /// What carries the track, sorted into strips along x.
 pub(super) struct Track<'a> {
@@ -56,35 +63,41 @@ impl<'a> Track<'a> {
         Ok(track)
     }
 
-    /// Weights of the displacement down at station x.
-    pub fn at(&self, x: f64, asked: &str) -> Result<Weights, ModelError> {
+    /// Weights of a component of the reference point's motion at station x.
+    pub fn at(&self, x: f64, component: Component, asked: &str) -> Result<Weights, ModelError> {
         let strip = &self.strips[strip(x, self.begin, self.width, self.strips.len())];
         let over = strip.iter().map(|number| &self.carriers[*number as usize]);
         let here: Vec<&Carrier> = over.filter(|c| x >= c.x[0] - EDGE && x <= c.x[1] + EDGE).collect();
         let found = match self.what {
-            "shell" => self.on_shell(x, &here),
-            "beam" => self.on_beam(x, &here),
-            _ => self.on_node(x, &here),
+            "shell" => self.on_shell(x, component, &here),
+            "beam" => self.on_beam(x, component, &here),
+            _ => self.on_node(x, component, &here),
         };
         found?.ok_or_else(|| self.off(x, asked, &here))
     }
 
     /// The highest of the shells over or under the track.
-    fn on_shell(&self, x: f64, here: &[&Carrier]) -> Result<Option<Weights>, ModelError> {
+    fn on_shell(&self, x: f64, component: Component, here: &[&Carrier]) -> Result<Option<Weights>, ModelError> {
         let y = self.model.deck.y;
         let mut best: Option<(f64, Weights)> = None;
         for carrier in here.iter().filter(|c| y >= c.y[0] - EDGE && y <= c.y[1] + EDGE) {
             let Of::Shell(section) = carrier.of else { continue };
             let corners: Vec<[f64; 3]> = carrier.nodes.iter().map(|node| coordinates(self.model, *node)).collect();
-            let kind = self.sections.plate(section).and_then(|plate| solids::shell(&corners, plate));
-            let found = match kind.map_err(|why| ModelError(format!("bridge: shell of section {section}: {why}")))? {
+            let why = |why| ModelError(format!("bridge: shell of section {section}: {why}"));
+            let plate = self.sections.plate(section).map_err(why)?;
+            // How far the reference point is below the middle surface.
+            let arm = |z: f64| {
+                let top = -0.5 * plate.thickness;
+                [0.0, 0.0, self.model.deck.z.map_or(top, |level| level - z)]
+            };
+            let found = match solids::shell(&corners, plate).map_err(why)? {
                 Kind::Shell4(shell) => shell.contains_in_plan(x, y, EDGE).map(|place| {
-                    let weights = shell.interpolate(place, DOWN, [0.0; 3]);
-                    (shell.point(place)[2], weights)
+                    let z = shell.point(place)[2];
+                    (z, of(component, arm(z), |direction, arm| shell.interpolate(place, direction, arm)))
                 }),
                 Kind::Shell3(shell) => shell.contains_in_plan(x, y, EDGE).map(|place| {
-                    let weights = shell.interpolate(place, DOWN, [0.0; 3]);
-                    (shell.point(place)[2], weights)
+                    let z = shell.point(place)[2];
+                    (z, of(component, arm(z), |direction, arm| shell.interpolate(place, direction, arm)))
                 }),
                 _ => None,
             };
@@ -98,7 +111,7 @@ impl<'a> Track<'a> {
     }
 
     /// The beam nearest to the track; halfway between two, both.
-    fn on_beam(&self, x: f64, here: &[&Carrier]) -> Result<Option<Weights>, ModelError> {
+    fn on_beam(&self, x: f64, component: Component, here: &[&Carrier]) -> Result<Option<Weights>, ModelError> {
         // nearest to the left and to the right of the track: distance, row
         let mut sides: [Option<(f64, Weights)>; 2] = [None, None];
         for carrier in here {
@@ -112,7 +125,8 @@ impl<'a> Track<'a> {
             let arm = self.model.deck.y - (a[1] + xi * (b[1] - a[1]));
             let side = &mut sides[usize::from(arm > EDGE)];
             if side.as_ref().is_none_or(|(distance, _)| arm.abs() < distance - EDGE) {
-                let weights = beam.interpolate(xi, DOWN, [0.0, arm, 0.0]);
+                let above = self.model.deck.z.map_or(0.0, |level| level - (a[2] + xi * (b[2] - a[2])));
+                let weights = of(component, [0.0, arm, above], |direction, arm| beam.interpolate(xi, direction, arm));
                 *side = Some((arm.abs(), in_model(&carrier.nodes, weights)));
             }
         }
@@ -128,7 +142,7 @@ impl<'a> Track<'a> {
     }
 
     /// The node nearest along x; of several there the nearest along y, and of those the highest.
-    fn on_node(&self, x: f64, here: &[&Carrier]) -> Result<Option<Weights>, ModelError> {
+    fn on_node(&self, x: f64, component: Component, here: &[&Carrier]) -> Result<Option<Weights>, ModelError> {
         let y = self.model.deck.y;
         let order = |carrier: &&&Carrier| {
             let place = coordinates(self.model, carrier.nodes[0]);
@@ -141,13 +155,14 @@ impl<'a> Track<'a> {
         });
         Ok(nearest.map(|carrier| {
             let node = carrier.nodes[0];
-            let [from_x, from_y, _] = coordinates(self.model, node);
-            let arm = [x - from_x, y - from_y];
-            vec![
-                (motion(node, Freedom::Z), 1.0),
-                (motion(node, Freedom::Rx), arm[1]),
-                (motion(node, Freedom::Ry), -arm[0]),
-            ]
+            let [from_x, from_y, from_z] = coordinates(self.model, node);
+            let arm = [x - from_x, y - from_y, self.model.deck.z.map_or(0.0, |level| level - from_z)];
+            let weights = match component {
+                Component::Vertical => vec![(Freedom::Z, 1.0), (Freedom::Rx, arm[1]), (Freedom::Ry, -arm[0])],
+                Component::Lateral => vec![(Freedom::Y, 1.0), (Freedom::Rz, arm[0]), (Freedom::Rx, -arm[2])],
+                Component::Roll => vec![(Freedom::Rx, 1.0)],
+            };
+            weights.into_iter().map(|(freedom, weight)| (motion(node, freedom), weight)).collect()
         }))
     }
 
@@ -173,6 +188,25 @@ impl<'a> Track<'a> {
 
 fn strip(x: f64, begin: f64, width: f64, count: usize) -> usize {
     if width > 0.0 { (((x - begin) / width).max(0.0) as usize).min(count - 1) } else { 0 }
+}
+
+/// Weights of a component from the displacement of a point `arm` away from an element's axis or surface.
+fn of(
+    component: Component,
+    arm: [f64; 3],
+    displacement: impl Fn([f64; 3], [f64; 3]) -> ttb_elements::Weights,
+) -> ttb_elements::Weights {
+    match component {
+        // How far the point lies above or below does not count here.
+        Component::Vertical => displacement(DOWN, [0.0, arm[1], 0.0]),
+        Component::Lateral => displacement(RIGHT, [0.0, 0.0, arm[2]]),
+        // u_z of a point 1 m to the right less that on the axis.
+        Component::Roll => {
+            let mut weights = displacement(DOWN, RIGHT);
+            weights.extend(displacement(DOWN, [0.0; 3]).into_iter().map(|(place, weight)| (place, -weight)));
+            weights
+        }
+    }
 }
 
 /// From an element's places to motions of the model.

@@ -46,7 +46,7 @@ pub struct Passage<'a> {
 pub fn on_points(bridge: &BridgeSpec, length: f64, step: f64, end: f64) -> BridgeSpec {
     let parts = (length / DISTANCE).ceil().max(2.0);
     let supports = (1..parts as usize).map(|i| length * i as f64 / parts).collect();
-    BridgeSpec { supports, step, end, ..bridge.clone() }
+    BridgeSpec { supports, step, end, space: false, ground: None, ..bridge.clone() }
 }
 
 impl Passage<'_> {
