@@ -66,7 +66,9 @@ class Workers {
     if (!script.ok || !wasm.ok) throw new Error("engine.wasm is not beside this page: build it with tools/web, or open the page by `ttb ui`");
     const engine = new Workers();
     // Kept, so that nothing is asked of the network after loading.
-    engine.module = await WebAssembly.compile(await wasm.arrayBuffer());
+    engine.module = await WebAssembly.compile(await wasm.arrayBuffer()).catch((error) => {
+      throw new Error(`this browser cannot run it, which needs WebAssembly with vectors of 128 bits (2023): ${error.message}`);
+    });
     engine.script = URL.createObjectURL(new Blob([await script.text()], { type: "text/javascript" }));
     engine.count = Math.max(1, Math.min(navigator.hardwareConcurrency || 2, 16));
     engine.desk = new Desk(() => engine.make());

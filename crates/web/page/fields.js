@@ -7,14 +7,14 @@ const byId = (id) => document.getElementById(id);
 // label, unit, path of the value in the scenario or key of the request, quantity whose range is told, factor to the unit of the path.
 export const FIELDS = {
   equal: [
-    { id: "count", label: "Number of equal spans", unit: "", told: "1 is a single span" },
-    { id: "length", label: "Length of a span", unit: "m", at: "spans.length", what: "span.length" },
+    { id: "count", label: "Number of equal spans", unit: "", told: "one behind the other; 1 is a single span" },
+    { id: "length", label: "Length of a span", unit: "m", at: "spans.length", what: "span.length", help: "from bearing to bearing" },
     { id: "stiffness", label: "Stiffness by", choices: [["first_frequency", "first frequency n₀"], ["bending_stiffness", "bending stiffness EI"]] },
-    { id: "first_frequency", label: "First natural frequency n₀", unit: "Hz", at: "spans.first_frequency", told: "n0" },
-    { id: "bending_stiffness", label: "Bending stiffness EI", unit: "N m²", at: "spans.bending_stiffness", told: "ei" },
-    { id: "mass", label: "Mass with dead loads", unit: "kg/m", at: "spans.mass", what: "span.mass" },
+    { id: "first_frequency", label: "First natural frequency n₀", unit: "Hz", at: "spans.first_frequency" },
+    { id: "bending_stiffness", label: "Bending stiffness EI", unit: "N m²", at: "spans.bending_stiffness" },
+    { id: "mass", label: "Mass with dead loads", unit: "kg/m", at: "spans.mass", what: "span.mass", help: "structure, ballast, rails" },
   ],
-  damping: [{ id: "ratio", label: "Damping ratio", unit: "%", at: "bridge.damping.ratio", factor: 0.01, what: "damping.ratio" }],
+  damping: [{ id: "ratio", label: "Damping ratio", unit: "%", at: "bridge.damping.ratio", factor: 0.01, what: "damping.ratio", help: "of critical damping" }],
   "bridge-more": [
     { id: "shear", label: "Shear stiffness κGA", unit: "N", at: "spans.shear_stiffness", told: "optional: a beam after Timoshenko" },
     { id: "times", label: "Damping is met at n₀ and its multiple", unit: "times", at: "bridge.damping.at.first_times", told: "usual 3 to 6; 4 if left out" },
@@ -22,13 +22,13 @@ export const FIELDS = {
   ],
   train: [
     { id: "trains", label: "Trains", unit: "", request: "trains", told: "names, commas between them: hslm-a, ice2, en15528-d2x6", list: "known-trains", acts: "loads" },
-    { id: "consist", label: "Vehicles", choices: [], acts: "vehicles" },
+    { id: "consist", label: "Vehicles", choices: [], help: "ice3 is a train of eight cars", acts: "vehicles" },
     { id: "cars-count", label: "How often", unit: "times", told: "1 for a whole train", acts: "vehicles" },
     { id: "speeds", label: "Speeds", unit: "km/h", request: "speeds", told: "speeds" },
   ],
   track: [
-    { id: "track-type", label: "Track", choices: [] },
-    { id: "spectrum", label: "Irregularity of the rail", choices: [], acts: "vehicles" },
+    { id: "track-type", label: "Track", choices: [], help: "decides the limit of acceleration, carries vehicles" },
+    { id: "spectrum", label: "Irregularity of the rail", choices: [], help: "random, by a measured spectrum", acts: "vehicles" },
     { id: "seeds", label: "Seeds", unit: "", told: "1, or 1:20 for twenty rails and a smooth one", acts: "vehicles" },
     { id: "shortest", label: "Shortest wave", unit: "m", told: "usual 1 to 3", at: "irregularity.wavelengths[0]", acts: "vehicles" },
     { id: "longest", label: "Longest wave", unit: "m", told: "usual 25 to 150", at: "irregularity.wavelengths[1]", acts: "vehicles" },
@@ -53,7 +53,7 @@ export function field(of) {
   } else if (of.choices) {
     input = element("select", { id: of.id, "aria-describedby": describe });
     for (const [value, text] of of.choices) input.append(element("option", { value }, text));
-    box.append(element("label", { for: of.id }, of.label), element("div", { class: "entry" }, input));
+    box.append(element("label", { for: of.id }, of.label), element("div", { class: "entry" }, input), element("span", { class: "usual", id: `${of.id}-usual` }, of.help ?? ""));
   } else {
     input = element("input", { id: of.id, type: "text", inputmode: of.request ? "text" : "decimal", "aria-describedby": describe, list: of.list, spellcheck: "false" });
     box.append(element("label", { for: of.id }, of.label), element("div", { class: "entry" }, input, element("span", { class: "unit", id: `${of.id}-unit` }, of.unit)));
@@ -71,8 +71,12 @@ function ranged([low, high], unit, factor = 1) {
 }
 
 function usual(of) {
-  const range = of.what && known.about.ranges.ranges.find((one) => one.what === of.what);
-  if (range) return ranged(range.usual, of.unit, of.factor);
+  return [of.help, telling(of)].filter(Boolean).join("; ");
+}
+
+function telling(of) {
+  const data = of.what && known.about.ranges.ranges.find((one) => one.what === of.what);
+  if (data) return ranged(data.usual, of.unit, of.factor);
   if (of.told === "speeds") {
     const speed = known.about.ranges.ranges.find((one) => one.what === "train.speed").usual[1];
     return `140:420 or 140:420:5 or 200,250; usual up to ${number(3.6 * speed, 3)}`;
@@ -90,9 +94,9 @@ export function tellFrequencies() {
   };
   const inside = length >= of.lengths[0] && length <= of.lengths[1];
   const n0 = inside ? [at(of.lower), at(of.upper)] : null;
-  byId("first_frequency-usual").textContent = n0 ? `${ranged(n0.map((f) => Number(f.toPrecision(3))), "Hz")} for ${number(length)} m` : "usual: by the length (EN 1991-2, figure 6.10)";
+  byId("first_frequency-usual").textContent = `in bending; ${n0 ? `${ranged(n0.map((f) => Number(f.toPrecision(3))), "Hz")} for ${number(length)} m` : "usual: by the length (EN 1991-2, figure 6.10)"}`;
   const stiffness = (f) => Number((mass * ((2 * length * length * f) / Math.PI) ** 2).toPrecision(2));
-  byId("bending_stiffness-usual").textContent = n0 && mass > 0 ? ranged(n0.map(stiffness), "N m²") : "usual: by length and mass";
+  byId("bending_stiffness-usual").textContent = `of the whole deck; ${n0 && mass > 0 ? ranged(n0.map(stiffness), "N m²") : "usual: by length and mass"}`;
 }
 
 export const text = (id) => fields.get(id).input.value.trim();
