@@ -189,7 +189,8 @@ B25 = {
 
 @pytest.mark.parametrize("case", ["r1", "b25", "default"])
 def test_the_browser_computes_the_peaks_of_the_program(clean, address, examples, case):
-    """To 1e-9 of the largest of a kind; sin, exp and the like are of another library."""
+    """To 1e-9; accelerations of car bodies to 1e-8: they are small differences of forces of 1e5 N, and the sums of the two
+    machines are rounded in another order (vectors of two numbers, no fused multiplication)."""
     if case == "b25":
         asked = {"scenario": json.dumps(B25), "trains": ["hslm-a3"], "speeds": "250"}
     else:
@@ -201,7 +202,8 @@ def test_the_browser_computes_the_peaks_of_the_program(clean, address, examples,
     assert mine["run_id"] == program["run_id"] and len(mine["peaks"]) == len(program["peaks"]) > 5
     for one, other in zip(mine["peaks"], program["peaks"]):
         assert [one[key] for key in ("quantity", "place", "filter")] == [other[key] for key in ("quantity", "place", "filter")]
-        assert one["value"] == pytest.approx(other["value"], rel=1e-9, abs=1e-12), (one, other)
+        allowed = 1e-8 if one["quantity"].startswith("body.") else 1e-9
+        assert one["value"] == pytest.approx(other["value"], rel=allowed, abs=1e-12), (one, other)
 
 
 AXE = Path(os.environ.get("TTB_AXE", "axe.min.js"))

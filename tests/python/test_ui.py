@@ -156,6 +156,11 @@ def test_a_request_becomes_the_folder_that_a_sweep_writes_and_its_report(page, t
     ttb("report", "saved", "-q", cwd=tmp_path)
     for name in ("verdicts.json", "report.html"):
         assert made[name] == (saved / name).read_text(), name
+    # What the page sends for a report alone: extremes along the deck of judged runs.
+    judged = {verdict["run_id"] for verdict in outcome["verdicts"]["verdicts"]}
+    lean = [one if one["run_id"] in judged else {**one, "envelopes": []} for one in records]
+    less = page.call("dossier", asked=asked, records=lean, compared=again, name="saved", date="2026-01-01")
+    assert less["report.html"] == made["report.html"] and len(less["envelope.csv"]) < len(made["envelope.csv"])
     film = page.call("film", asked=asked, runs=[outcome["governing"][0]["run"]])
     deepest = max(abs(w) for row in film["displacement"] for w in row)
     largest = max(r["value"] for r in outcome["governing"] if r["quantity"] == "deck.displacement")

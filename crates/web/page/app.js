@@ -4,7 +4,7 @@ import { compute, connect, Refused } from "./engine.js";
 import { fields, tellFrequencies } from "./fields.js";
 import { arrange, build, changed, collect, fieldOf, fill, limits, toggleDifferent } from "./form.js";
 import { modes, sketch } from "./sketch.js";
-import { clear, shown } from "./results.js";
+import { clear, lean, shown } from "./results.js";
 import { example, fragment, fromFragment, take } from "./files.js";
 
 const byId = (id) => document.getElementById(id);
@@ -129,7 +129,7 @@ async function start(event) {
     progress(0, plan.runs.length);
     const records = await compute(engine, asked, plan, progress, controller.signal);
     const judges = { names: limits(), own: shown.ownLimits };
-    const outcome = await engine.long("outcome", { asked, records, limits: judges }, controller.signal);
+    const outcome = await engine.long("outcome", { asked, records: lean(records), limits: judges }, controller.signal);
     tell(`${outcome.runs} ${outcome.runs === 1 ? "run" : "runs"} in ${((performance.now() - begin) / 1000).toFixed(1)} s`);
     byId("stale").hidden = true;
     shown.results({ engine, asked, plan, records, outcome, limits: judges, begin });

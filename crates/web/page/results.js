@@ -15,6 +15,9 @@ function save(name, content, type) {
   setTimeout(() => URL.revokeObjectURL(address), 60000);
 }
 
+// Records without extremes along the deck, which are most of them, but for the runs that are named.
+export const lean = (records, named = new Set()) => records.map((record) => (named.has(record.run_id) ? record : { ...record, envelopes: [] }));
+
 export const shown = { results, save, about: undefined, ownLimits: null };
 
 export function clear() {
@@ -70,7 +73,9 @@ function actions(of) {
   const told = element("span", { role: "status" });
   let compared = [];
   // The report names the folder in which the files are meant to lie.
-  const made = () => of.engine.call("dossier", { asked: of.asked, records: of.records, limits: of.limits, compared, name: "ttb-page", date: new Date().toISOString().slice(0, 10) });
+  const made = (records) => of.engine.call("dossier", { asked: of.asked, records, limits: of.limits, compared, name: "ttb-page", date: new Date().toISOString().slice(0, 10) });
+  // A report shows the extremes along the deck of judged runs alone.
+  const judged = lean(of.records, new Set(of.outcome.verdicts.verdicts.map((verdict) => verdict.run_id)));
   const button = (text, id, act) => {
     const one = element("button", { type: "button", id }, text);
     one.addEventListener("click", async () => {
@@ -86,12 +91,12 @@ function actions(of) {
     return one;
   };
   const report = button("Open the report", "report", async () => {
-    const page = (await made())["report.html"];
+    const page = (await made(judged))["report.html"];
     document.documentElement.dataset.report = String(page.length);
     window.open(URL.createObjectURL(new Blob([page], { type: "text/html" })), "_blank", "noopener");
   });
-  const keep = button("Save the report", "save-report", async () => save("report.html", (await made())["report.html"], "text/html"));
-  const all = button("Save all (.zip)", "save-all", async () => save("ttb-page.zip", zip("ttb-page", await made())));
+  const keep = button("Save the report", "save-report", async () => save("report.html", (await made(judged))["report.html"], "text/html"));
+  const all = button("Save all (.zip)", "save-all", async () => save("ttb-page.zip", zip("ttb-page", await made(of.records))));
   const again = of.plan.way === "coupled" ? undefined : button("Repeat the governing runs step by step", "again", async () => {
     told.textContent = "computing …";
     compared = await of.engine.long("again", { asked: of.asked, records: of.records }, new AbortController().signal);
