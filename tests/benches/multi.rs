@@ -28,7 +28,7 @@ fn cost(name: &str, steps: Steps) -> [f64; 2] {
     let mut checked = example(name);
     checked.set_steps(steps);
     let spent = [const { Cell::new(0.0) }; 2];
-    let Sides { train_track, bridge, mut coupling } = sides(&checked);
+    let Sides { train_track, bridge, mut coupling, .. } = sides(&checked);
     let mut train_track = Timed { inside: train_track, spent: &spent[0] };
     let mut bridge = Timed { inside: bridge, spent: &spent[1] };
     let mut counted = Iterations::default();

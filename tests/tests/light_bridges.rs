@@ -94,7 +94,7 @@ fn settings(checked: &Checked, method: Method) -> Settings {
 
 fn try_run(checked: &Checked, settings: Settings, abilities: Abilities) -> Result<Ran, RunError> {
     let [rolls_back, derives, interpolates] = abilities;
-    let Sides { mut train_track, bridge, coupling } = sides(checked);
+    let Sides { mut train_track, bridge, coupling, .. } = sides(checked);
     let mut bridge = Limited { bridge, checked: checked.clone(), rolls_back, derives, interpolates };
     let (case, mut table) = (Case { settings, ..Case::of(checked) }, Table::default());
     let (ended, report) = run(&case, coupling.ports().clone(), [&mut train_track, &mut bridge], &mut [&mut table]);

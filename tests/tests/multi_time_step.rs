@@ -221,7 +221,7 @@ fn newton_halved_steps_and_reduced_bridges_work_with_sub_steps_too() {
     let checked = r1_with(500.0, 5e-3);
     let mut checked = Checked { scenario: checked.scenario.clone(), ..checked };
     checked.set_steps(Steps { step: 5e-3, substeps: 10 });
-    let Sides { mut train_track, mut bridge, coupling } = sides(&checked);
+    let Sides { mut train_track, mut bridge, coupling, .. } = sides(&checked);
     let case = Case::of(&checked);
     let few = Settings { max_iterations: 4, on_failure: OnFailure::Halve, ..case.settings };
     let (case, mut table) = (Case { settings: few, end: 0.4, ..case }, ttb_session::Table::default());

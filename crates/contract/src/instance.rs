@@ -42,6 +42,10 @@ impl<M: Model> Instance<M> {
     pub fn model(&self) -> &M {
         &self.model
     }
+    /// The model, for what changes none of its answers, such as work done ahead.
+    pub fn model_mut(&mut self) -> &mut M {
+        &mut self.model
+    }
     /// Where the instance is in its life.
     pub fn phase(&self) -> Phase {
         self.phase

@@ -9,8 +9,8 @@ use ttb_coupling::{Coupling, StepInfo};
 
 use crate::axis::TimeAxis;
 use crate::column::Column;
-use crate::drive::Stepping;
 use crate::error::RunError;
+use crate::stepping::Stepping;
 
 /// Says whether what trial steps showed speaks against the run.
 pub type Judge<'a> = &'a mut dyn FnMut(&Probe) -> Result<(), RunError>;
@@ -30,6 +30,16 @@ impl<'a> Coupled<'a> {
     /// Without trial steps.
     pub fn new(train_track: &'a mut dyn Subsystem, bridge: &'a mut dyn Subsystem, coupling: &'a mut Coupling) -> Self {
         Self { train_track, bridge, coupling, probe: None, of_train_track: 0 }
+    }
+
+    /// As before, of columns that were chosen already.
+    pub(crate) fn again(
+        train_track: &'a mut dyn Subsystem,
+        bridge: &'a mut dyn Subsystem,
+        coupling: &'a mut Coupling,
+        of_train_track: usize,
+    ) -> Self {
+        Self { of_train_track, ..Self::new(train_track, bridge, coupling) }
     }
 
     /// With trial steps before the first one. `groups` are the ports, by position, that act on a deck of their own each.

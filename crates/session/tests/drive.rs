@@ -7,8 +7,9 @@ use std::sync::atomic::AtomicBool;
 use ttb_contract::{Failure, Ports, Signal, Subsystem};
 use ttb_coupling::{Coupling, Method, OnFailure, Outcome, Predictor, Settings, StepInfo};
 use ttb_scenario::types::{Csv, Decimal, Separator};
+use ttb_session::abreast::Run;
 use ttb_session::observe::{IterationsCsv, Moment, Observer, Progress, ResultsCsv, Timed};
-use ttb_session::{Column, Coupled, Ended, Plan, RunError, Stepping, Table, TimeAxis, drive};
+use ttb_session::{Column, Coupled, Ended, Plan, RunError, Stepping, Table, TimeAxis, drive, drive_abreast};
 
 /// Tells its time and its square; fails in a step if asked to.
 #[derive(Default)]
@@ -58,6 +59,27 @@ fn every_row_has_its_time_and_the_last_step_is_shortened() {
     let told = table.history("car[1].position").expect("recorded");
     assert!(told.iter().zip(&table.time).all(|(told, t)| (told - t).abs() < 1e-15), "{told:?}");
     assert_eq!(table.steps.len(), 3);
+}
+
+#[test]
+fn runs_abreast_are_the_runs_alone_and_one_that_fails_leaves_the_others() {
+    let plan = |end| Plan { axis: TimeAxis::new(0.25, end), wanted: ALL, clock: &|| 0.0 };
+    let plans = [plan(1.0), plan(2.0), plan(0.6)];
+    let clocks = || [None, Some(0.75), None].map(|fails_from| Clockwork { fails_from, ..Clockwork::default() });
+    let (mut systems, mut tables, mut seen) = (clocks(), [(); 3].map(|()| Table::default()), Vec::new());
+    let runs = systems.iter_mut().zip(&plans).zip(&mut tables);
+    let runs = runs.map(|((system, plan), table)| Run { system, plan, observers: vec![table] });
+    let ended = drive_abreast(&mut runs.collect::<Vec<_>>(), &mut |going| {
+        seen.push(going.iter().map(|one| one.t).collect::<Vec<_>>());
+    });
+    // Step by step, only those that have not come to their end.
+    assert_eq!(seen, [vec![0.0; 3], vec![0.25; 3], vec![0.5; 3], vec![0.75, 0.75]]);
+    assert!(matches!(ended[..], [Ok(Ended::Complete), Err(RunError::Subsystem(_)), Ok(Ended::Complete)]), "{ended:?}");
+    for ((mut system, plan), table) in clocks().into_iter().zip(&plans).zip(&tables) {
+        let mut alone = Table::default();
+        let _ = drive(&mut system, plan, &mut [&mut alone]);
+        assert_eq!((&table.time, &table.values), (&alone.time, &alone.values));
+    }
 }
 
 #[test]

@@ -15,7 +15,7 @@ use crate::results::ran::Ran;
 pub fn run(bench: &Bench, row: &Planned) -> Result<Ran, Error> {
     let checked = with_step(bench.checked, row);
     let begin = cpu();
-    let Sides { mut train_track, mut bridge, mut coupling } = fmus::sides(&checked)?;
+    let Sides { mut train_track, mut bridge, mut coupling, .. } = fmus::sides(&checked)?;
     let axis = Case::of(&checked).axis();
     let mut ran = Ran { method: row.name.clone(), step: row.step, steps: axis.steps(), ..Ran::default() };
     ran.preparation = cpu() - begin;
