@@ -14,20 +14,20 @@
 //!
 //! A large system ([`crate::lazy`]) splits its solve: forward with p when a step begins, backward when u₁ is asked for.
 
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use ttb_dynamics::damping::modal_correction;
 use ttb_dynamics::dense::Dense;
-use ttb_dynamics::newmark::{Motion, Newmark};
-use ttb_sparse::Pencil;
+use ttb_dynamics::newmark::Newmark;
 use ttb_sparse::modes::Modes;
 use ttb_sparse::vector::{add_scaled, dot};
-use ttb_sparse::{Factor, FactorError};
+use ttb_sparse::{Factor, FactorError, Pencil, Product};
 
+use crate::lanes::{Lanes, RUNS};
 use crate::law::Law;
 use crate::lazy::Lazy;
 use crate::rows::Rows;
-use crate::system::{Base, Step, System, Work};
+use crate::system::{Base, Lane, Step, System, Work};
 
 /// K₀, M₀, C₀, and the modes that modal damping needs.
 #[derive(Debug)]
@@ -106,6 +106,7 @@ impl System for Full {
             corrections,
             rows: Arc::clone(rows),
             lazy,
+            abreast: OnceLock::new(),
             system: self,
         }))
     }
@@ -130,6 +131,8 @@ struct FullStep {
     rows: Arc<Rows>,
     /// How a large system splits its solve.
     lazy: Option<Lazy>,
+    /// What several bridges side by side need besides; `None`: they have nothing in common.
+    abreast: OnceLock<Option<Common>>,
 }
 
 impl FullStep {
@@ -162,21 +165,23 @@ impl FullStep {
 }
 
 impl FullStep {
-    /// From R K̂⁻¹p to r⁰, with ṙ⁰ and r̈⁰ that belong to it.
-    fn see(&self, supports: usize, base: &mut Base) {
-        let Base { motion: Motion { u, v, a }, known, free, before, .. } = base;
-        [&mut free.v, &mut free.a, before].into_iter().for_each(Vec::clear);
-        for (i, r) in free.u.iter_mut().enumerate() {
-            *r += self.rows.dot(i, known);
-            let [u, v, a] = [&*u, v, a].map(|x| self.rows.dot(i, x));
-            let (velocity, acceleration) = self.newmark.finish(*r, u, v, a);
-            free.v.push(velocity);
-            if i >= supports {
-                free.a.push(acceleration);
-                before.push(v);
-            }
-        }
+    /// M₀ in the order of elimination, where runs side by side share the factor.
+    fn common(&self) -> Option<Common> {
+        let (pattern, _) = self.factor.panels().filter(|_| self.lazy.is_some())?;
+        let alone = self.system.pencil.has_dashpots() || !self.rates.is_empty();
+        (!alone).then(|| {
+            let mass = self.system.pencil.mass_in(&pattern.position);
+            Common { mass, zeros: vec![0.0; self.lazy.as_ref().map_or(0, Lazy::supports)] }
+        })
     }
+}
+
+/// What runs side by side share besides the factor.
+struct Common {
+    /// M₀ in the order of elimination.
+    mass: Product,
+    /// No forces.
+    zeros: Vec<f64>,
 }
 
 impl Step for FullStep {
@@ -193,7 +198,7 @@ impl Step for FullStep {
         base.amplitudes.extend(self.shapes().iter().map(|shape| dot(shape, &load)));
         if let Some(lazy) = &self.lazy {
             lazy.begin(&self.factor, base, &mut load, work);
-            self.see(lazy.supports(), base);
+            base.see(&self.rows, &self.newmark, lazy.supports());
         }
         base.load = load;
     }
@@ -219,5 +224,17 @@ impl Step for FullStep {
             add_scaled(-correction * amplitude, shape, u);
         }
         add_scaled(1.0, &base.known, u);
+    }
+
+    fn proceed_abreast(&self, lanes: &mut [Lane], work: &mut Work) {
+        match self.abreast.get_or_init(|| self.common()) {
+            Some(Common { mass, zeros }) if let Some(lazy) = &self.lazy => {
+                let constants = [self.mass, self.alpha, self.share];
+                let Self { factor, rows, newmark, .. } = self;
+                let together = Lanes { factor, lazy, mass, rows, newmark, constants, zeros };
+                lanes.chunks_mut(RUNS).for_each(|lanes| together.proceed(lanes, work));
+            }
+            _ => lanes.iter_mut().for_each(|lane| self.proceed(lane.base, lane.forces, lane.next, work)),
+        }
     }
 }

@@ -3,6 +3,7 @@
 //! Start with [`model::Bridge`]. A specification becomes a mesh ([`beams`] or [`frame`] → [`mesh`]), a mesh becomes
 //! equations ([`structure`], [`system`]), and the deck's path ([`deck`]) ties the track's supports to them.
 
+pub mod abreast;
 mod across;
 pub mod assembled;
 pub mod beams;
@@ -14,9 +15,9 @@ mod ground;
 pub mod imported;
 pub mod inspect;
 pub mod interface;
+pub mod lanes;
 pub mod law;
 pub mod lazy;
-pub mod lockstep;
 pub mod march;
 pub mod mesh;
 pub mod model;
@@ -36,5 +37,6 @@ pub mod stored;
 pub mod structure;
 pub mod system;
 
+pub use abreast::Abreast;
 pub use model::Bridge;
 pub use prepared::Prepared;

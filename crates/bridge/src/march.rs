@@ -65,6 +65,16 @@ struct Kept {
     base: Arc<Base>,
 }
 
+/// The end of a step and the begin of the next, to be computed.
+pub struct Owed {
+    /// The state at that moment; a step is pending.
+    pub state: State,
+    /// Size of the next step, s.
+    pub size: f64,
+    /// Its base, with no other holder.
+    pub next: Arc<Base>,
+}
+
 /// Steps a structure under a law.
 pub struct March {
     law: Law,
@@ -114,9 +124,31 @@ impl March {
                 step.begin(base, work);
             }
         });
-        self.kept.truncate(KEPT - 1);
-        self.kept.insert(0, Kept { state: Arc::clone(state), size, base: Arc::clone(&base) });
+        self.remember(Kept { state: Arc::clone(state), size, base: Arc::clone(&base) });
         base
+    }
+
+    /// What is left of the step that led to `state`, if its end and the begin of the next one are still to be computed.
+    pub fn owed(&mut self, state: &State) -> Option<Owed> {
+        let Pending { step, .. } = state.pending.as_ref()?;
+        let size = self.steps.size(step)?;
+        let begun = |kept: &Kept| Arc::ptr_eq(&kept.state, state) && kept.size == size;
+        if self.kept.iter().any(begun) {
+            return None;
+        }
+        let next = self.bases.take(Base::default);
+        Some(Owed { state: Arc::clone(state), size, next })
+    }
+
+    /// Keeps what was owed, once somebody has computed it.
+    pub fn keep(&mut self, Owed { state, size, next: base }: Owed) {
+        self.bases.give(&base);
+        self.remember(Kept { state, size, base });
+    }
+
+    fn remember(&mut self, kept: Kept) {
+        self.kept.truncate(KEPT - 1);
+        self.kept.insert(0, kept);
     }
 
     fn new_base(&mut self, fill: impl FnOnce(&mut Base, &mut Work)) -> Arc<Base> {

@@ -11,7 +11,7 @@ use ttb_scenario::spec::{BridgeSpec, StructureSpec};
 
 use crate::interface::{self, Held, Parameters};
 use crate::law::ratio;
-use crate::march::{Forces, March};
+use crate::march::{Forces, March, Owed};
 use crate::prepared::Prepared;
 use crate::read_out::{Acceleration, Shaken, carry, read_out};
 use crate::reduction::Accuracy;
@@ -156,6 +156,17 @@ impl Bridge {
         let law = self.march.law();
         let factor = (law.stiffness / law.mass).sqrt();
         Ok(self.prepared.structure.natural_frequencies(count)?.into_iter().map(|f| factor * f).collect())
+    }
+
+    /// What is left of the last step for somebody to compute ahead.
+    pub(crate) fn owed(&mut self) -> Option<Owed> {
+        let state = Arc::clone(&self.state);
+        self.march.owed(&state)
+    }
+
+    /// Takes what was computed ahead.
+    pub(crate) fn keep(&mut self, owed: Owed) {
+        self.march.keep(owed);
     }
 
     /// A buffer for the next state, and its only holder.

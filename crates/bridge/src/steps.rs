@@ -47,6 +47,11 @@ impl Steps {
         (count as usize, size)
     }
 
+    /// The size of a factorised step in use, s.
+    pub fn size(&self, step: &Arc<dyn Step>) -> Option<f64> {
+        self.known.iter().find(|(_, known)| Arc::ptr_eq(known, step)).map(|(size, _)| *size)
+    }
+
     /// The factorised step of a size from [`Steps::divide`].
     ///
     /// # Errors

@@ -58,6 +58,34 @@ impl Base {
     }
 }
 
+impl Base {
+    /// From R K̂⁻¹p in `free.u` to r⁰, with ṙ⁰ and r̈⁰ that belong to it; B are the first `supports` of the rows R.
+    pub fn see(&mut self, rows: &Rows, newmark: &Newmark, supports: usize) {
+        let Self { motion: Motion { u, v, a }, known, free, before, .. } = self;
+        [&mut free.v, &mut free.a, before].into_iter().for_each(Vec::clear);
+        for (i, r) in free.u.iter_mut().enumerate() {
+            *r += rows.dot(i, known);
+            let [u, v, a] = [&*u, v, a].map(|x| rows.dot(i, x));
+            let (velocity, acceleration) = newmark.finish(*r, u, v, a);
+            free.v.push(velocity);
+            if i >= supports {
+                free.a.push(acceleration);
+                before.push(v);
+            }
+        }
+    }
+}
+
+/// A step that one of several bridges over this structure finishes while it begins the next.
+pub struct Lane<'a> {
+    /// The base of the step that ends.
+    pub base: &'a Base,
+    /// The forces at its end.
+    pub forces: &'a [f64],
+    /// That of the step that begins.
+    pub next: &'a mut Base,
+}
+
 /// Buffers of a step.
 #[derive(Clone, Debug, Default)]
 pub struct Work {
@@ -122,5 +150,10 @@ pub trait Step: Send + Sync {
     fn proceed(&self, base: &Base, forces: &[f64], next: &mut Base, work: &mut Work) {
         self.finish(base, forces, &mut next.motion, work);
         self.begin(next, work);
+    }
+
+    /// [`Step::proceed`] of several bridges. What a lane gets does not depend on the others.
+    fn proceed_abreast(&self, lanes: &mut [Lane], work: &mut Work) {
+        lanes.iter_mut().for_each(|lane| self.proceed(lane.base, lane.forces, lane.next, work));
     }
 }

@@ -5,13 +5,13 @@ mod common;
 use std::sync::Arc;
 
 use common::{GIRDER, Train, drive, girder, girder_spec as spec, girder_stations as stations, outputs, stepping};
-use ttb_bridge::Bridge;
 use ttb_bridge::full::Full;
+use ttb_bridge::lanes::RUNS;
 use ttb_bridge::law::Law;
-use ttb_bridge::lockstep::{Lockstep, RUNS};
 use ttb_bridge::rows::Rows;
 use ttb_bridge::space;
-use ttb_bridge::system::{Base, System, Work};
+use ttb_bridge::system::{Base, Lane, Step, System, Work};
+use ttb_bridge::{Abreast, Bridge, Prepared};
 use ttb_contract::{Instance, Model};
 use ttb_dynamics::newmark::{Motion, Newmark};
 use ttb_scenario::spec::BridgeSpec;
@@ -185,29 +185,99 @@ fn a_bridge_that_the_probe_does_not_move_has_no_error() {
     assert!(bridge.remarks().is_empty());
 }
 
+/// `count` runs under loads of their own for five steps, side by side: their motions at the end.
+fn abreast(step: &dyn Step, [n, supports]: [usize; 2], which: std::ops::Range<usize>) -> Vec<Motion> {
+    let mut work = Work::default();
+    let mut bases: Vec<Base> = which.clone().map(|_| Base { motion: Motion::rest(n), ..Base::default() }).collect();
+    bases.iter_mut().for_each(|base| step.begin(base, &mut work));
+    for k in 0..5 {
+        let forces: Vec<Vec<f64>> = which.clone().map(|run| of_run(run, k, supports)).collect();
+        let mut next = bases.clone();
+        let lanes = bases.iter().zip(&forces).zip(&mut next).map(|((base, forces), next)| Lane { base, forces, next });
+        step.proceed_abreast(&mut lanes.collect::<Vec<_>>(), &mut work);
+        bases = next;
+    }
+    bases.into_iter().map(|base| base.motion).collect()
+}
+
+fn of_run(run: usize, k: usize, supports: usize) -> Vec<f64> {
+    (0..supports).map(|i| 1e4 * ((i * (run + 1) + k) % 19) as f64).collect()
+}
+
 #[test]
-fn runs_in_lockstep_are_the_runs_alone() {
+fn runs_abreast_are_the_runs_alone_whoever_their_neighbours_are() {
     let (pencil, rows) = assembled(&girder(false));
     let (newmark, n, supports) = (Newmark::new(0.5, 0.25, 1e-3), pencil.ndof(), stations().len());
     let sparse = Arc::new(Rows::new(&rows));
-    let mut together = Lockstep::new(&pencil, &law(), newmark, &sparse, supports).unwrap();
     let full = Arc::new(Full::new(Arc::clone(&pencil), None, Default::default()));
     let step = full.prepare(&law(), newmark, &sparse, supports).unwrap();
-    let mut alone: Vec<Base> = (0..RUNS).map(|_| Base { motion: Motion::rest(n), ..Base::default() }).collect();
-    let (mut work, mut next, mut seen, mut trial) =
-        (Work::default(), Motion::rest(n), Motion::default(), vec![0.0; rows.len()]);
-    for k in 0..5 {
-        let of_run = |run: usize| (0..supports).map(|i| 1e4 * ((i * (run + 1) + k) % 19) as f64).collect::<Vec<f64>>();
-        let forces: Vec<Vec<f64>> = (0..RUNS).map(of_run).collect();
-        together.begin();
-        for (run, base) in alone.iter_mut().enumerate() {
-            step.begin(base, &mut work);
-            base.answer(step.compliance().unwrap(), step.newmark(), &forces[run], &mut seen);
-            together.trial(run, &forces[run], &mut trial);
-            assert!(difference(&trial, &seen.u) < 1e-10, "run {run}, step {k}: {}", difference(&trial, &seen.u));
-            step.finish(base, &forces[run], &mut next, &mut work);
-            std::mem::swap(&mut base.motion, &mut next);
+    let (mut work, mut next) = (Work::default(), Base::default());
+    let together = abreast(&*step, [n, supports], 0..RUNS + 3);
+    for (run, motion) in together.iter().enumerate() {
+        let mut base = Base { motion: Motion::rest(n), ..Base::default() };
+        step.begin(&mut base, &mut work);
+        for k in 0..5 {
+            step.proceed(&base, &of_run(run, k, supports), &mut next, &mut work);
+            std::mem::swap(&mut base, &mut next);
         }
-        together.finish(std::array::from_fn(|run| forces[run].as_slice()));
+        for (found, alone) in [(&motion.u, &base.motion.u), (&motion.v, &base.motion.v), (&motion.a, &base.motion.a)] {
+            assert!(difference(found, alone) < 1e-9, "run {run}: {}", difference(found, alone));
+        }
+    }
+    for which in [3..4, 5..14, 1..RUNS + 3] {
+        assert_eq!(abreast(&*step, [n, supports], which.clone()), together[which]);
+    }
+}
+
+/// The outputs of bridges under a train each, step by step; side by side or each by itself.
+fn passages(prepared: &Arc<Prepared>, abreast: bool) -> Vec<Vec<f64>> {
+    let bridge = prepared.spec();
+    let ready = |_| {
+        let mut instance = Instance::new(Bridge::from_prepared(prepared).unwrap());
+        instance.enter_initialization(0.0).unwrap();
+        instance.exit_initialization().unwrap();
+        instance
+    };
+    let mut instances: Vec<Instance<Bridge>> = (0..3).map(ready).collect();
+    let (mut all, mut forces, mut served) = (Vec::new(), vec![0.0; bridge.supports.len()], Vec::new());
+    let mut ahead = Abreast::default();
+    for n in 0..40 {
+        let t = 1e-3 * f64::from(n);
+        if abreast {
+            let mut bridges: Vec<&mut Bridge> = instances.iter_mut().map(Instance::model_mut).collect();
+            served.push(ahead.ahead(&mut bridges));
+            // A second time there is nothing left.
+            assert_eq!(ahead.ahead(&mut bridges), 0);
+        }
+        for (i, instance) in instances.iter_mut().enumerate() {
+            let train = Train { axles: vec![(0.0, 1e5), (2.5, 1e5)], speed: 60.0 + 20.0 * i as f64 };
+            train.forces(t + 1e-3, &bridge.supports, &mut forces);
+            drive(instance, &forces, None);
+            // Repeated as an iteration does.
+            let saved = instance.save();
+            instance.step(t, 1e-3).unwrap();
+            let first = outputs(instance);
+            instance.restore(&saved).unwrap();
+            instance.step(t, 1e-3).unwrap();
+            assert_eq!(outputs(instance), first);
+            all.push(first);
+        }
+    }
+    assert!(!abreast || (served[0] == 0 && served[1..].iter().all(|served| *served == 3)), "{served:?}");
+    all
+}
+
+#[test]
+fn bridges_find_what_was_computed_ahead() {
+    let full = spec(girder(false));
+    let reduced = BridgeSpec { reduction: Some(Reduction::default()), ..full.clone() };
+    for (bridge, tolerance) in [(full, 1e-9), (reduced, 0.0)] {
+        let prepared = Prepared::new(&bridge).unwrap();
+        let (together, alone) = (passages(&prepared, true), passages(&prepared, false));
+        for i in 0..together[0].len() {
+            let of = |all: &[Vec<f64>]| all.iter().map(|outputs| outputs[i]).collect::<Vec<f64>>();
+            let (together, alone) = (of(&together), of(&alone));
+            assert!(together == alone || difference(&together, &alone) <= tolerance, "output {i}");
+        }
     }
 }

@@ -4,11 +4,11 @@ use std::path::Path;
 use std::sync::Arc;
 
 use ttb_bridge::full::Full;
+use ttb_bridge::lanes::RUNS;
 use ttb_bridge::law::Law;
-use ttb_bridge::lockstep::{Lockstep, RUNS};
 use ttb_bridge::rows::Rows;
 use ttb_bridge::structure::eliminated_last;
-use ttb_bridge::system::{Base, Step, System, Work};
+use ttb_bridge::system::{Base, Lane, Step, System, Work};
 use ttb_bridge::{reduction, space};
 use ttb_dynamics::damping::rayleigh;
 use ttb_dynamics::newmark::{Motion, Newmark};
@@ -92,8 +92,8 @@ pub fn measure(scenario: &Path, reduce: Option<f64>, reducible: usize) -> Row {
     let prepared =
         timed("factorise the step, S", &mut start, || full.prepare(&law, newmark, &sparse, supports).expect("a step"));
     let [step, trial] = run(&*prepared, ndof, supports);
+    let lockstep = abreast(&*prepared, ndof, supports);
     drop(prepared);
-    let lockstep = together(&pencil, &law, newmark, &sparse, supports);
     let memory = peak_memory();
     let reduced = reduce.filter(|_| supports <= reducible).map(|hertz| {
         let wish = Reduction { highest_frequency: Some(hertz), ..Reduction::default() };
@@ -107,6 +107,7 @@ pub fn measure(scenario: &Path, reduce: Option<f64>, reducible: usize) -> Row {
         let vectors = system.unknowns();
         let prepared = system.prepare(&law, newmark, &shared, supports).expect("a step");
         let [step, _] = run(&*prepared, vectors, supports);
+        println!("reduced, a run and step of {RUNS} abreast: {:.0} µs", 1e6 * abreast(&*prepared, vectors, supports));
         [vectors as f64, setup, step, peak_memory()]
     });
     Row { ndof, supports, factor, start, step, stream: stream(factor), trial, lockstep, memory, reduced }
@@ -130,14 +131,19 @@ fn run(step: &dyn Step, unknowns: usize, supports: usize) -> [f64; 2] {
     [whole, alone]
 }
 
-/// Least seconds of a run and step in lockstep, with two trials each; NaN for a bridge too small.
-fn together(pencil: &Pencil, law: &Law, newmark: Newmark, rows: &Rows, supports: usize) -> f64 {
-    let Ok(mut runs) = Lockstep::new(pencil, law, newmark, rows, supports) else { return f64::NAN };
-    let (forces, mut seen) = (vec![1e4; supports], vec![0.0; rows.len()]);
+/// Least seconds of a run and step of [`RUNS`] runs side by side, with two trials each.
+fn abreast(step: &dyn Step, unknowns: usize, supports: usize) -> f64 {
+    let (mut work, mut seen, forces) = (Work::default(), Motion::default(), vec![1e4; supports]);
+    let mut bases: Vec<Base> = (0..RUNS).map(|_| Base { motion: Motion::rest(unknowns), ..Base::default() }).collect();
+    bases.iter_mut().for_each(|base| step.begin(base, &mut work));
+    let mut next = bases.clone();
     let step = least(10, || {
-        runs.begin();
-        (0..2 * RUNS).for_each(|i| runs.trial(i % RUNS, &forces, &mut seen));
-        runs.finish([&forces; RUNS]);
+        for base in bases.iter().chain(&bases) {
+            step.compliance().into_iter().for_each(|s| base.answer(s, step.newmark(), &forces, &mut seen));
+        }
+        let lanes = bases.iter().zip(&mut next).map(|(base, next)| Lane { base, forces: &forces, next });
+        step.proceed_abreast(&mut lanes.collect::<Vec<_>>(), &mut work);
+        std::mem::swap(&mut bases, &mut next);
     });
     step / RUNS as f64
 }
