@@ -22,9 +22,10 @@ pub fn layout(train: &TrainTrackSpec, track: &Track, bridge: &Assembled) -> Layo
     if let (Some(known), [first, .., last]) = (known.filter(|known| known.len() > 1), &train.on_bridge[..]) {
         // Off the bridge the track goes on as straight as it lies on it.
         let (a, b) = (known[0], known[known.len() - 1]);
-        let along: [f64; 3] = std::array::from_fn(|i| (b[i] - a[i]) / (*last - *first) as f64);
+        let along: [f64; 3] = std::array::from_fn(|i| (b[i] - a[i]) / (*last as f64 - *first as f64));
         place.extend((0..bays).map(|bay| {
-            let at = train.on_bridge.partition_point(|on| *on < bay).min(known.len() - 1);
+            let nearest = (0..known.len()).min_by_key(|at| train.on_bridge[*at].abs_diff(bay));
+            let at = nearest.unwrap_or_default();
             let ahead = bay as f64 - train.on_bridge[at] as f64;
             std::array::from_fn(|i| known[at][i] + ahead * along[i])
         }));

@@ -46,6 +46,13 @@ impl Deck {
         Some(Self { length: last.x, inner_bearings: bearings.collect() })
     }
 
+    /// The deck as a train meets it that runs against its abscissa.
+    #[must_use]
+    pub fn mirrored(&self) -> Self {
+        let inner_bearings = self.inner_bearings.iter().rev().map(|x| self.length - x).collect();
+        Self { length: self.length, inner_bearings }
+    }
+
     /// Which of `count` supports at `from`, `from + spacing`, … rest on this deck when it begins at `at`, as index and
     /// distance from its begin.
     ///

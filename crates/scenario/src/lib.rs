@@ -14,6 +14,7 @@ mod json;
 pub mod limits;
 mod load;
 mod measured;
+mod mirrored;
 pub mod model;
 pub mod passage;
 mod pieces;

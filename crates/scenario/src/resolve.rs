@@ -132,7 +132,17 @@ pub(crate) fn specs(scenario: &Scenario, resolved: Resolved) -> Option<(TrainTra
     let (laid, bridge, time) = (&scenario.track, &scenario.bridge, scenario.time);
     let (from, bays, end) = (laid.from?, laid.bays?, time.end?);
     let given = Steps { step: time.step.given().unwrap_or(end), substeps: time.substeps.unwrap_or(1) };
-    let supports = Deck::new(&structure)?.supports(bridge.at, from, track.spacing, bays + 1, bridge.over_bearings);
+    let deck = Deck::new(&structure)?;
+    let forward = scenario.train.heading.is_forward();
+    let met = if forward { deck.clone() } else { deck.mirrored() };
+    let mut supports = met.supports(bridge.at, from, track.spacing, bays + 1, bridge.over_bearings);
+    let mut irregularity = resolved.profile?;
+    if !forward {
+        // The bridge counts from its begin, whoever comes from where.
+        supports.reverse();
+        supports.iter_mut().for_each(|(_, x)| *x = deck.length - *x);
+        irregularity = irregularity.mirrored(bridge.at + 0.5 * deck.length);
+    }
     let vehicles = resolved.cars?;
     let car = |vehicle: &Vehicle| match vehicle {
         Vehicle::Car(car) => Some(car.clone()),
@@ -152,7 +162,7 @@ pub(crate) fn specs(scenario: &Scenario, resolved: Resolved) -> Option<(TrainTra
         elements_per_bay: laid.elements_per_bay,
         local_compliance: laid.local_compliance,
         on_bridge: supports.iter().map(|(i, _)| *i).collect(),
-        irregularity: resolved.profile?,
+        irregularity,
         irregularity_scale: scale(&scenario.irregularity),
         rail_points: laid.points.clone(),
         step: given.step,

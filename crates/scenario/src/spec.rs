@@ -40,7 +40,7 @@ pub struct TrainTrackSpec {
     pub elements_per_bay: usize,
     /// Whether the rail yields locally under a load inside an element.
     pub local_compliance: bool,
-    /// The supports (0-based, increasing) that rest on the bridge; the others rest on the ground.
+    /// The supports (0-based, in the order of those of the bridge) that rest on it; the others rest on the ground.
     pub on_bridge: Vec<usize>,
     /// Track irregularity.
     pub irregularity: Profile,

@@ -53,8 +53,12 @@ impl RailCompliance {
     /// Supports on the bridge that a wheel at `point` can be felt at, and N K̂⁻¹ e_s of each, written to `row` (one entry a
     /// support on the bridge, the others are left alone).
     pub fn to_supports(&self, point: &RailPoint, row: &mut [f64]) -> Range<usize> {
-        let begin = self.support_nodes.partition_point(|n| n + self.width <= point.element + 1);
-        let end = self.support_nodes.partition_point(|n| *n < point.element + self.width);
+        let behind = |n: &usize| n + self.width <= point.element + 1;
+        let ahead = |n: &usize| *n >= point.element + self.width;
+        // Against the run where the train comes from the bridge's end.
+        let rising = self.support_nodes.first() <= self.support_nodes.last();
+        let begin = self.support_nodes.partition_point(|n| if rising { behind(n) } else { ahead(n) });
+        let end = self.support_nodes.partition_point(|n| if rising { !ahead(n) } else { !behind(n) });
         let end = end.max(begin);
         for (s, entry) in row.iter_mut().enumerate().take(end).skip(begin) {
             let table = s * (2 * self.width - 1);

@@ -111,12 +111,36 @@ pub struct Train {
     pub front_wheel: Option<f64>,
     /// Train speed.
     pub speed: Speed,
+    /// In which direction it crosses the bridge.
+    #[serde(default, skip_serializing_if = "Heading::is_forward")]
+    pub heading: Heading,
     /// Distance in m over which the cars alone are rolled over the irregularity, on the track's static stiffness,
     /// before the run starts, so that they do not ring from a start at rest; 0: start at rest; absent: what the train runs
     /// in five seconds where the rail is irregular, else 0.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0, max = 10000))]
     pub pre_roll: Option<f64>,
+}
+
+/// Direction of a train.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Heading {
+    /// The first axle enters at the bridge's begin.
+    #[default]
+    Forward,
+    /// The first axle enters at the bridge's end. Abscissae of train, track and rail count along the run as ever, from the
+    /// bridge's end at `bridge.at`; those of the bridge and its points count from its begin. A wave or a measured rail stays
+    /// where it lies; a random one is drawn along the run.
+    Backward,
+}
+
+impl Heading {
+    /// Whether it is the usual one.
+    #[must_use]
+    pub fn is_forward(&self) -> bool {
+        *self == Self::Forward
+    }
 }
 
 /// Law of the wheel–rail contact.
