@@ -184,3 +184,107 @@ def test_a_shard_ends_cleanly_on_sigterm(run, ttb, scenario, tmp_path):
     assert process.wait(timeout=20) == 143
     assert not list((out / "journal").glob(".*"))
     assert "missing" in run("campaign", "status", out)
+
+
+UNEVEN = [SPAN | {"length": 20}, SPAN | {"length": 30, "bending_stiffness": 2e10}]
+# Three axles, far from symmetric.
+TRAIN = "x,load\n0,120\n3,200\n11,80\n"
+
+
+@pytest.mark.parametrize("way", ["modal", "one-axle", "coupled"])
+def test_a_train_from_the_other_end_is_the_same_train_over_the_mirrored_bridge(run, tmp_path, way):
+    (tmp_path / "odd.csv").write_text(TRAIN)
+    folders = []
+    for name, spans, heading in [("a", UNEVEN, "both"), ("b", UNEVEN[::-1], "forward")]:
+        scenario = json.loads(json.dumps(SCENARIO))
+        scenario["bridge"]["structure"] = {"type": "beams", "spans": spans, "continuous": True}
+        path = tmp_path / f"{name}.json"
+        path.write_text(json.dumps(scenario))
+        folder = tmp_path / name
+        what = ["--trains", tmp_path / "odd.csv", "--speeds", "200,250", "--heading", heading, "--way", way]
+        run("sweep", path, *what, "-o", folder)
+        folders.append(folder)
+    wanted = lambda row: row["place_kind"] == "deck" and row["quantity"].startswith("deck.")
+    backward = [row for row in rows(folders[0] / "peaks.csv") if wanted(row) and row["train"].endswith(" backward")]
+    forward = [row for row in rows(folders[0] / "peaks.csv") if wanted(row) and not row["train"].endswith(" backward")]
+    mirrored = [row for row in rows(folders[1] / "peaks.csv") if wanted(row)]
+    assert len(backward) == len(mirrored) > 4
+    for one, other in zip(backward, mirrored):
+        assert all(one[key] == other[key] for key in ["speed_km_h", "quantity", "filter", "statistic"])
+        assert float(one["value"]) == pytest.approx(float(other["value"]), rel=1e-6)
+        assert float(one["x_m"]) == pytest.approx(50 - float(other["x_m"]), abs=1e-6)
+    assert any(abs(float(a["value"]) / float(b["value"]) - 1) > 0.01 for a, b in zip(backward, forward))
+
+
+def test_vehicles_from_the_other_end_meet_the_bridge_and_its_measured_rail_mirrored(run, tmp_path):
+    results = []
+    for name, spans, heading in [("a", UNEVEN, "backward"), ("b", UNEVEN[::-1], "forward")]:
+        rail = [(x, 1e-3 * np.sin(0.9 * x) + 4e-4 * np.cos(2.1 * x)) for x in np.arange(-400, 500, 0.25)]
+        if heading == "backward":
+            # The bridge lies from 0 to 50 m; the rail is told where it lies.
+            rail = [(50 - x, r) for x, r in reversed(rail)]
+        (tmp_path / f"{name}.csv").write_text("x,r\n" + "".join(f"{x},{float(r)!r}\n" for x, r in rail))
+        scenario = json.loads(json.dumps(SCENARIO))
+        scenario["bridge"]["structure"] = {"type": "beams", "spans": spans, "continuous": True}
+        scenario["bridge"]["points"] = [{"name": "p", "x": 12.0 if heading == "backward" else 38.0}]
+        scenario["irregularity"] = {"type": "measured", "file": f"{name}.csv"}
+        if heading == "backward":
+            scenario["train"]["heading"] = heading
+        path = tmp_path / f"{name}.json"
+        path.write_text(json.dumps(scenario))
+        folder = tmp_path / f"out-{name}"
+        run("run", path, "-q", "-o", folder)
+        results.append(rows(folder / "results.csv"))
+    assert len(results[0]) == len(results[1]) > 500
+    for column in ["point[p].displacement", "wheel[1].contact_force", "car[1].acceleration"]:
+        a, b = (np.array([float(row[column]) for row in of]) for of in results)
+        assert np.abs(a - b).max() < 1e-6 * np.abs(b).max(), column
+
+
+def test_limits_are_kept_with_the_sweep_and_another_number_computes_nothing_anew(run, scenario, tmp_path):
+    out = tmp_path / "out"
+    own = tmp_path / "own.json"
+    entry = {"id": "deck-acceleration", "cases": [{"limit": 0.5}], "source": "the owner"}
+    own.write_text(json.dumps({"criteria": [entry]}))
+    arguments = ["sweep", scenario, "--trains", "hslm-a1", "--speeds", "200,210", "-o", out]
+    run(*arguments, "--limits", own)
+    before = {path.name: path.stat().st_mtime_ns for path in (out / "journal").iterdir()}
+    own.unlink()
+    told = run("report", out, "--check", code=6)
+    assert "exceeded     deck-acceleration" in told
+    entry["cases"] = [{"limit": 50.0}]
+    own.write_text(json.dumps({"criteria": [entry]}))
+    run(*arguments, "--limits", own)
+    assert {path.name: path.stat().st_mtime_ns for path in (out / "journal").iterdir()} == before
+    assert "fulfilled    deck-acceleration" in run("report", out)
+    # Another filter asks for another value: the runs are computed anew, the old ones stay what they are.
+    entry["filter"] = {"type": "butterworth", "order": 4, "phase": "zero", "cut_off_hz": 15}
+    own.write_text(json.dumps({"criteria": [entry]}))
+    run(*arguments, "--limits", own)
+    assert any("15" in row["filter"] for row in rows(out / "peaks.csv"))
+    own.write_text(json.dumps({"criteria": [entry | {"limmit": 3}]}))
+    assert "limmit" in run(*arguments, "--limits", own, code=2)
+
+
+@pytest.mark.parametrize("way", ["modal", "one-axle", "coupled"])
+def test_the_histories_of_all_runs_are_kept_when_asked_for(run, scenario, tmp_path, way):
+    out = tmp_path / "out"
+    arguments = ["sweep", scenario, "--trains", "hslm-a1", "--speeds", "200,210,220", "--way", way, "-o", out]
+    run(*arguments, "--keep-histories", "none")
+    assert not (out / "history").exists()
+    tables = made(out)[:3]
+    run(*arguments, "--keep-histories", "all")
+    ids = {row["run_id"] for row in rows(out / "runs.csv")}
+    assert {path.stem for path in (out / "history").iterdir()} == ids
+    assert made(out)[:3] == tables
+    # The largest value of a kept history is the row of the run.
+    for one in ids:
+        history = rows(out / "history" / f"{one}.csv")
+        columns = [name for name in history[0] if name.endswith("acceleration [m/s2]")]
+        largest = max(abs(float(row[column])) for row in history for column in columns)
+        is_it = lambda row: row["run_id"] == one and row["quantity"] == "deck.acceleration" and row["filter"] == "raw"
+        row = next(row for row in rows(out / "peaks.csv") if is_it(row) and row["place_kind"] == "deck")
+        # Between two samples a parabola gives the row's value.
+        assert largest == pytest.approx(float(row["value"]), rel=5e-3)
+    with h5py.File(out / "results.h5") as file:
+        assert set(file["history"]) == ids

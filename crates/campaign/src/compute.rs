@@ -16,8 +16,8 @@ pub enum Computed {
 
 /// Something that computes runs of a plan. The result of a run must not depend on which others are computed with it.
 pub trait Compute: Sync {
-    /// How many runs a call takes best.
-    fn batch(&self) -> usize {
+    /// How many runs a call takes best, of so many that a number of workers share.
+    fn batch(&self, _runs: usize, _workers: usize) -> usize {
         1
     }
 
@@ -26,4 +26,9 @@ pub trait Compute: Sync {
 
     /// Computes runs: one answer each, in their order. `stop` asks to leave off; whoever looks at it does so between steps.
     fn compute(&self, runs: &[Run], stop: &AtomicBool) -> Vec<Computed>;
+}
+
+/// At most so many runs a batch, and so few that all workers end at about the same time.
+pub fn small(most: usize, runs: usize, workers: usize) -> usize {
+    most.min(runs.div_ceil(4 * workers))
 }

@@ -5,16 +5,17 @@ use std::path::{Path, PathBuf};
 use serde_json::Value;
 use ttb_assessment::Facts;
 use ttb_scenario::spec::Profile;
-use ttb_scenario::types::{self, CarChoice, Forces};
+use ttb_scenario::types::{self, CarChoice, Forces, Heading};
 use ttb_scenario::{Checked, Setting, bundled};
 use ttb_trains::ForceTrain;
 
 use crate::coupled::Source;
 use crate::error::Error;
 use crate::facts;
+use crate::limits::Limits;
 use crate::list::{self, Numbers, Written};
 use crate::plan::{FORMAT, Load, Plan, Rail, Train, Variant, Way};
-use crate::request::Request;
+use crate::request::{Headings, Request};
 use crate::speeds::{self, Step};
 
 /// Largest seed: an FMI Integer holds it.
@@ -48,8 +49,8 @@ pub fn source(scenario: &Path, set: impl IntoIterator<Item = (String, Value)>) -
     Ok(Source { text, folder, name: scenario.display().to_string(), settings })
 }
 
-/// Resolves a request whose scenario is a file. `modal` tells whether a bridge's damping is diagonal in its modes, `version` is
-/// the program's, `beside` the folder from which the plan names its scenario.
+/// Resolves a request whose scenario is a file. `limits` are those that it names, `modal` tells whether a bridge's damping is
+/// diagonal in its modes, `version` is the program's, `beside` the folder from which the plan names its scenario.
 ///
 /// # Errors
 /// Every problem of the request, a line each; those of the scenario.
@@ -57,10 +58,14 @@ pub fn expand(
     request: &Request,
     version: &str,
     beside: &Path,
+    limits: &Limits,
     modal: &dyn Fn(&Checked) -> bool,
 ) -> Result<Expanded, Error> {
     let source = source(&request.scenario, request.set.clone())?;
-    of_source(request, source, relative(&request.scenario, beside), version, modal)
+    let mut expanded = of_source(request, source, relative(&request.scenario, beside), version, modal)?;
+    expanded.plan.limits.clone_from(&limits.texts);
+    expanded.plan.values = limits.values(&expanded.facts);
+    Ok(expanded)
 }
 
 /// As [`expand`], of a scenario that was read already; the plan calls it `scenario`.
@@ -120,6 +125,8 @@ pub fn of_source(
         variants,
         rails,
         speeds_km_h,
+        limits: Vec::new(),
+        values: String::new(),
     };
     Ok(Expanded { plan, source, checked, facts, chosen })
 }
@@ -139,12 +146,20 @@ fn trains(request: &Request, way: Way, checked: &Checked) -> Result<Vec<Train>, 
             Way::Coupled => Load::Scenario,
             Way::Modal | Way::OneAxle => axles(&ForceTrain::of_vehicles(&name, "", &checked.train_track.consist())),
         };
-        return Ok(vec![Train { name, max_speed_km_h: None, load }]);
+        return Ok(headed(
+            vec![Train { name, max_speed_km_h: None, load, heading: Heading::Forward }],
+            request.heading,
+        ));
     }
     let (mut trains, mut problems) = (Vec::<Train>::new(), Vec::new());
     for name in &request.trains {
         if way == Way::Coupled && bundled::cars(name).is_some() {
-            trains.push(Train { name: name.clone(), max_speed_km_h: None, load: Load::Cars(vec![name.clone()]) });
+            trains.push(Train {
+                name: name.clone(),
+                max_speed_km_h: None,
+                load: Load::Cars(vec![name.clone()]),
+                heading: Heading::Forward,
+            });
             continue;
         }
         match ttb_trains::find(name) {
@@ -152,10 +167,12 @@ fn trains(request: &Request, way: Way, checked: &Checked) -> Result<Vec<Train>, 
                 name: train.name.clone(),
                 max_speed_km_h: train.max_speed.map(|speed| list::tidy(3.6 * speed)),
                 load: axles(train),
+                heading: Heading::Forward,
             })),
             Err(found) => problems.push(format!("trains: {found}")),
         }
     }
+    let trains = headed(trains, request.heading);
     let mut names: Vec<&str> = trains.iter().map(|train| train.name.as_str()).collect();
     names.sort_unstable();
     problems.extend(
@@ -165,6 +182,19 @@ fn trains(request: &Request, way: Way, checked: &Checked) -> Result<Vec<Train>, 
             .map(|pair| format!("trains: every train must have a name of its own: `{}`", pair[0])),
     );
     if problems.is_empty() { Ok(trains) } else { Err(problems.join("\n")) }
+}
+
+/// The trains in the directions asked for; those that run backward say so in their names.
+fn headed(trains: Vec<Train>, heading: Headings) -> Vec<Train> {
+    let backward = |train: &Train| {
+        let name = format!("{} backward", train.name);
+        Train { name, heading: Heading::Backward, ..train.clone() }
+    };
+    match heading {
+        Headings::Forward => trains,
+        Headings::Backward => trains.iter().map(backward).collect(),
+        Headings::Both => trains.iter().flat_map(|train| [train.clone(), backward(train)]).collect(),
+    }
 }
 
 /// Of the scenario's own train: that of its one bundled train or car.

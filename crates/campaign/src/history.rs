@@ -60,6 +60,12 @@ impl History {
         Self::parse(file).map(Some).map_err(Error::io(&path))
     }
 
+    /// Whether a run's history is there.
+    #[must_use]
+    pub fn is_kept(campaign: &Path, id: &str) -> bool {
+        place(campaign, id).is_file()
+    }
+
     fn parse(file: File) -> std::io::Result<Self> {
         let mut rows = csv::Reader::from_reader(file);
         let mut columns: Vec<(String, String, Vec<f64>)> = Vec::new();

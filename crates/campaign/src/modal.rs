@@ -3,6 +3,7 @@
 //! A bridge is brought into its modes once a variant; a train's load on them is made once a batch.
 
 use std::collections::BTreeMap;
+use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -12,8 +13,9 @@ use ttb_passage::{Extreme, Heading, ModalBridge, Output, Passage, PlaceKind as K
 use ttb_trains::{Axle, ForceTrain};
 
 use crate::clock::Since;
-use crate::compute::{Compute, Computed};
+use crate::compute::{Compute, Computed, small};
 use crate::coupled::Source;
+use crate::kept;
 use crate::plan::{Load, Plan, Run, Train};
 use crate::record::{Envelope, FORMAT, Record};
 
@@ -29,6 +31,8 @@ pub struct Modal<'a> {
     source: &'a Source,
     /// Behind which acceleration is looked at, beside raw.
     filters: Vec<Filter>,
+    /// The campaign's folder, if the history of every run is kept there.
+    keep: Option<&'a Path>,
     bridges: Kept,
 }
 
@@ -39,7 +43,13 @@ pub struct Kept(Arc<Mutex<BTreeMap<usize, Made>>>);
 impl<'a> Modal<'a> {
     /// Of a plan. `filters` are those of the deck's acceleration.
     pub fn new(plan: &'a Plan, source: &'a Source, filters: Vec<Filter>) -> Self {
-        Self { plan, source, filters, bridges: Kept::default() }
+        Self { plan, source, filters, keep: None, bridges: Kept::default() }
+    }
+
+    /// With the history of every run kept in this folder.
+    #[must_use]
+    pub fn keeping(self, folder: &'a Path) -> Self {
+        Self { keep: Some(folder), ..self }
     }
 
     /// With bridges that were made for the same plan before.
@@ -75,8 +85,10 @@ impl<'a> Modal<'a> {
             (Err(error), _) => return out.extend(fail(&error)),
             (_, None) => return out.extend(fail("the modal way takes axle loads only")),
         };
+        let forward = self.plan.trains[first.train].heading.is_forward();
+        let heading = if forward { Heading::Forward } else { Heading::Backward };
         let begin = Since::now();
-        let passage = Passage::new(&bridge, &train, Heading::Forward, None);
+        let passage = Passage::new(&bridge, &train, heading, None);
         // What all share counts for each.
         let share = begin.seconds() / runs.len() as f64;
         for run in runs {
@@ -85,11 +97,17 @@ impl<'a> Modal<'a> {
                 continue;
             }
             let begin = Since::now();
-            let record = match run.speed().filter(|speed| *speed > 0.0) {
-                Some(speed) => self.record(run, &passage, speed),
-                None => Record::failed(&run.id, "axle loads need a speed: give speeds", 0.0),
+            let Some(speed) = run.speed().filter(|speed| *speed > 0.0) else {
+                let failed = Record::failed(&run.id, "axle loads need a speed: give speeds", 0.0);
+                out.push(Computed::Done(failed));
+                continue;
             };
-            out.push(Computed::Done(Record { seconds: share + begin.seconds(), ..record }));
+            let record = self.record(run, &passage, speed);
+            let record = Record { seconds: share + begin.seconds(), ..record };
+            out.push(kept::done(record, self.keep, || {
+                let histories = passage.histories(speed);
+                kept::of_outputs(bridge.outputs(), histories.h, &|output| histories.output(output))
+            }));
         }
     }
 
@@ -132,8 +150,8 @@ impl<'a> Modal<'a> {
 }
 
 impl Compute for Modal<'_> {
-    fn batch(&self) -> usize {
-        BATCH
+    fn batch(&self, runs: usize, workers: usize) -> usize {
+        small(BATCH, runs, workers)
     }
 
     fn compute(&self, runs: &[Run], stop: &AtomicBool) -> Vec<Computed> {

@@ -4,6 +4,7 @@
 //! Runs are computed speed by speed, all trains of one speed together, so that a speed costs one passage.
 
 use std::collections::BTreeMap;
+use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -13,11 +14,13 @@ use ttb_passage::one_axle::Unit;
 use ttb_passage::own::OwnBridge;
 use ttb_passage::{Extreme, Quantity};
 use ttb_scenario::deck::Deck;
+use ttb_scenario::types::Heading;
 
 use crate::clock::Since;
-use crate::compute::{Compute, Computed};
+use crate::compute::{Compute, Computed, small};
 use crate::coupled::loads::free_vibration;
 use crate::coupled::{Source, vehicles};
+use crate::kept;
 use crate::modal::{Rows, force_train};
 use crate::plan::{Plan, Run, Train};
 use crate::record::{FORMAT, Record};
@@ -43,6 +46,8 @@ pub struct OneAxle<'a> {
     source: &'a Source,
     facts: &'a Facts,
     filters: Vec<Filter>,
+    /// The campaign's folder, if the history of every run is kept there.
+    keep: Option<&'a Path>,
     /// First to last axle of the longest train, m.
     longest: f64,
     bridges: Kept,
@@ -56,7 +61,13 @@ impl<'a> OneAxle<'a> {
     /// Of a plan. `filters` are those of the deck's acceleration.
     pub fn new(plan: &'a Plan, source: &'a Source, facts: &'a Facts, filters: Vec<Filter>) -> Self {
         let longest = plan.trains.iter().filter_map(Train::length).fold(0.0, f64::max);
-        Self { plan, source, facts, filters, longest, bridges: Kept::default() }
+        Self { plan, source, facts, filters, keep: None, longest, bridges: Kept::default() }
+    }
+
+    /// With the history of every run kept in this folder.
+    #[must_use]
+    pub fn keeping(self, folder: &'a Path) -> Self {
+        Self { keep: Some(folder), ..self }
     }
 
     /// With bridges that were made for the same plan before.
@@ -91,7 +102,12 @@ impl<'a> OneAxle<'a> {
         set.map_err(|error| error.to_string())?;
         // The same for all trains, whichever are computed now.
         let time = (known.length + self.longest) / speed + known.free;
-        Unit::run(&mut bridge, known.own.path(), speed, known.step, time).map_err(|failure| failure.to_string())
+        let path = if self.heading(run).is_forward() { known.own.path().clone() } else { known.own.path().backward() };
+        Unit::run(&mut bridge, &path, speed, known.step, time).map_err(|failure| failure.to_string())
+    }
+
+    fn heading(&self, run: &Run) -> Heading {
+        self.plan.trains[run.train].heading
     }
 
     fn at_one_speed(&self, runs: &[Run], stop: &AtomicBool, out: &mut Vec<Computed>) {
@@ -105,26 +121,32 @@ impl<'a> OneAxle<'a> {
         let share = begin.seconds() / runs.len() as f64;
         for run in runs {
             let begin = Since::now();
-            let record = match &found {
-                Ok((unit, known)) => self.record(run, unit, known),
-                Err(error) => Record::failed(&run.id, error.as_str(), 0.0),
+            let computed = match (&found, force_train(&self.plan.trains[run.train])) {
+                (Ok((unit, known)), Some(train)) => {
+                    let histories = unit.histories(&train, known.free);
+                    let record = self.record(run, unit, &histories);
+                    let record = Record { seconds: share + begin.seconds(), ..record };
+                    let history = || kept::of_outputs(&unit.outputs, unit.h, &|output| histories[output].clone());
+                    kept::done(record, self.keep, history)
+                }
+                (Err(error), _) => Computed::Done(Record::failed(&run.id, error.as_str(), share)),
+                (_, None) => {
+                    Computed::Done(Record::failed(&run.id, "the way of one axle takes axle loads only", share))
+                }
             };
-            out.push(Computed::Done(Record { seconds: share + begin.seconds(), ..record }));
+            out.push(computed);
         }
     }
 
-    fn record(&self, run: &Run, unit: &Unit, known: &Known) -> Record {
-        let Some(train) = force_train(&self.plan.trains[run.train]) else {
-            return Record::failed(&run.id, "the way of one axle takes axle loads only", 0.0);
-        };
+    fn record(&self, run: &Run, unit: &Unit, histories: &[Vec<f64>]) -> Record {
         let mut rows = Rows::default();
-        for (output, history) in unit.outputs.iter().zip(unit.histories(&train, known.free)) {
-            rows.add(output, RAW, &Extreme::of(&history, unit.h), None);
+        for (output, history) in unit.outputs.iter().zip(histories) {
+            rows.add(output, RAW, &Extreme::of(history, unit.h), None);
             if output.quantity != Quantity::Acceleration {
                 continue;
             }
             for filter in &self.filters {
-                match filter.apply(&history, 1.0 / unit.h, unit.speed * unit.h) {
+                match filter.apply(history, 1.0 / unit.h, unit.speed * unit.h) {
                     Ok(filtered) => rows.add(output, &filter.label(), &Extreme::of(&filtered, unit.h), None),
                     Err(error) => return Record::failed(&run.id, format!("{}: {error}", filter.label()), 0.0),
                 }
@@ -146,19 +168,24 @@ impl<'a> OneAxle<'a> {
 }
 
 impl Compute for OneAxle<'_> {
-    fn batch(&self) -> usize {
-        self.plan.trains.len()
+    fn batch(&self, runs: usize, workers: usize) -> usize {
+        small(self.plan.trains.len(), runs, workers)
     }
 
     /// Speed by speed; what else differs keeps its order.
     fn arrange(&self, runs: &mut [Run]) {
         let speed = |run: &Run| run.speed_km_h.unwrap_or(0.0);
-        runs.sort_by(|a, b| a.variant.cmp(&b.variant).then(speed(a).total_cmp(&speed(b))));
+        let backward = |run: &Run| !self.heading(run).is_forward();
+        runs.sort_by(|a, b| {
+            let speeds = speed(a).total_cmp(&speed(b));
+            a.variant.cmp(&b.variant).then(speeds).then(backward(a).cmp(&backward(b)))
+        });
     }
 
     fn compute(&self, runs: &[Run], stop: &AtomicBool) -> Vec<Computed> {
         let mut out = Vec::with_capacity(runs.len());
-        for part in runs.chunk_by(|a, b| (a.variant, a.speed_km_h) == (b.variant, b.speed_km_h)) {
+        let of = |run: &Run| (run.variant, run.speed_km_h, self.heading(run));
+        for part in runs.chunk_by(|a, b| of(a) == of(b)) {
             self.at_one_speed(part, stop, &mut out);
         }
         out

@@ -8,6 +8,7 @@
 
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
+use ttb_scenario::types::Heading;
 
 use crate::error::Error;
 use crate::identity;
@@ -69,6 +70,9 @@ pub struct Train {
     pub max_speed_km_h: Option<f64>,
     /// What it is.
     pub load: Load,
+    /// In which direction it crosses the bridge.
+    #[serde(default, skip_serializing_if = "Heading::is_forward")]
+    pub heading: Heading,
 }
 
 impl Train {
@@ -161,6 +165,13 @@ pub struct Plan {
     pub rails: Vec<Rail>,
     /// Speeds, km/h, rising; common to all trains. Empty: the scenario's own.
     pub speeds_km_h: Vec<f64>,
+    /// Limits by which results are judged: name and content of each file. Empty: the bundled ones.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub limits: Vec<[String; 2]>,
+    /// What of the reduced values depends on limits: quantities, statistics and filters that they ask for. Empty: those of the
+    /// bundled ones.
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub values: String,
 }
 
 /// One run.
@@ -217,12 +228,14 @@ impl Plan {
 
     /// A run with its id.
     pub fn run(&self, train: usize, variant: usize, rail: Rail, speed_km_h: Option<f64>, refined: bool) -> Run {
-        let (load, of) = (&self.trains[train].load, &self.variants[variant]);
+        let (Train { load, heading, .. }, of) = (&self.trains[train], &self.variants[variant]);
         let factors = [of.mass_factor, of.stiffness_factor].map(f64::to_bits);
-        let id = identity::of(&(
+        let usual = heading.is_forward() && self.values.is_empty();
+        let decides = (
             (&self.version, &self.scenario_sha256, self.way, self.forces),
             (load, factors, &of.set, rail, speed_km_h.map(f64::to_bits)),
-        ));
+        );
+        let id = if usual { identity::of(&decides) } else { identity::of(&(decides, heading, &self.values)) };
         Run { id, train, variant, rail, speed_km_h, refined }
     }
 

@@ -33,8 +33,7 @@ pub fn compute(
     stop: &AtomicBool,
     tell: &(dyn Fn(Progress) + Sync),
 ) -> Result<Progress, Error> {
-    // So small that all workers end at about the same time.
-    let batch = with.batch().clamp(1, runs.len().div_ceil(4 * workers.max(1)).max(1));
+    let batch = with.batch(runs.len(), workers.max(1)).max(1);
     let (next, ended, failure) = (AtomicUsize::new(0), Mutex::new(Progress::default()), Mutex::new(None));
     let leave = AtomicBool::new(false);
     let work = || {

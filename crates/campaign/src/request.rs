@@ -61,6 +61,25 @@ pub struct Request {
     /// How runs are computed; none: `auto`.
     #[serde(default)]
     pub way: Choice,
+    /// In which direction trains cross the bridge.
+    #[serde(default)]
+    pub heading: Headings,
+    /// Limits by which results are judged: names and files.
+    #[serde(default)]
+    pub limits: Vec<String>,
+}
+
+/// In which direction trains cross the bridge.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Headings {
+    /// The first axle enters at the bridge's begin.
+    #[default]
+    Forward,
+    /// It enters at the bridge's end.
+    Backward,
+    /// Every train once in either direction.
+    Both,
 }
 
 /// The way, or that the program chooses.
@@ -170,10 +189,10 @@ impl Request {
             serde_json::from_str(&text).map_err(|error| Error::Input(format!("{name}: {error}")))?;
         let folder = path.parent().unwrap_or(Path::new(""));
         request.scenario = folder.join(&request.scenario);
-        for train in &mut request.trains {
-            let beside = folder.join(&*train);
+        for name in request.trains.iter_mut().chain(&mut request.limits) {
+            let beside = folder.join(&*name);
             if beside.is_file() {
-                *train = beside.display().to_string();
+                *name = beside.display().to_string();
             }
         }
         Ok(request)

@@ -1,12 +1,14 @@
 //! What computes the runs of a plan: one of the ways, by the plan and the train.
 
+use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
-use ttb_assessment::criterion::DEFAULT;
 use ttb_assessment::filter::RAW;
 use ttb_assessment::peak::quantity::{DECK_ACCELERATION, DECK_DISPLACEMENT};
 use ttb_assessment::{Criteria, Facts, Filter};
+use ttb_bridge::lanes::RUNS;
+use ttb_scenario::spec::StructureSpec;
 use ttb_trains::Signature;
 
 use crate::compute::{Compute, Computed};
@@ -14,6 +16,7 @@ use crate::coupled::{Bridges, Loads, Shared, Source, Vehicles};
 use crate::error::Error;
 use crate::expand::Expanded;
 use crate::history::History;
+use crate::limits::Limits;
 use crate::modal::{self, Modal, force_train};
 use crate::one_axle::{self, OneAxle};
 use crate::plan::{Load, Plan, Run, Way};
@@ -35,6 +38,8 @@ pub struct Runner<'a> {
     modal: Modal<'a>,
     one_axle: OneAxle<'a>,
     kept: Kept,
+    abreast: usize,
+    keep: Option<&'a Path>,
 }
 
 /// Tracks and bridges that were prepared for a plan; a clone is the same.
@@ -50,7 +55,7 @@ impl<'a> Runner<'a> {
     /// Of a plan.
     ///
     /// # Errors
-    /// The way is not known here.
+    /// The limits cannot be read.
     pub fn new(expanded: &'a Expanded) -> Result<Self, Error> {
         Self::with(expanded, Kept::default())
     }
@@ -61,11 +66,9 @@ impl<'a> Runner<'a> {
     /// As [`Self::new`].
     pub fn with(expanded: &'a Expanded, kept: Kept) -> Result<Self, Error> {
         let Expanded { plan, source, facts, .. } = expanded;
-        let criteria = Criteria::bundled(DEFAULT);
-        let told = |problems: Vec<_>| problems.iter().map(ToString::to_string).collect::<Vec<String>>().join("\n");
-        let criteria = criteria.map_err(|problems| Error::Input(told(problems)))?;
+        let criteria = Limits { texts: plan.limits.clone() }.criteria()?;
         let mut filters: Vec<Filter> = Vec::new();
-        for wanted in criteria.wanted(facts) {
+        for wanted in criteria.wanted(&facts.overruled_by(&criteria.facts)) {
             if wanted.quantity == DECK_ACCELERATION && wanted.filter != Filter::Raw && !filters.contains(&wanted.filter)
             {
                 filters.push(wanted.filter);
@@ -74,7 +77,16 @@ impl<'a> Runner<'a> {
         let judged = filters.first().copied().unwrap_or(Filter::Raw);
         let one_axle = OneAxle::new(plan, source, facts, filters.clone()).with(kept.one_axle.clone());
         let modal = Modal::new(plan, source, filters).with(kept.modal.clone());
-        Ok(Self { plan, source, facts, criteria, judged, modal, one_axle, kept })
+        let abreast = abreast(&expanded.checked.bridge.structure);
+        Ok(Self { plan, source, facts, criteria, judged, modal, one_axle, kept, abreast, keep: None })
+    }
+
+    /// With the history of every run kept in this folder.
+    #[must_use]
+    pub fn keeping(self, folder: &'a Path) -> Self {
+        let Self { modal, one_axle, .. } = self;
+        let keep = Some(folder);
+        Self { modal: modal.keeping(folder), one_axle: one_axle.keeping(folder), keep, ..self }
     }
 
     /// What is refined.
@@ -112,31 +124,28 @@ impl<'a> Runner<'a> {
 
     /// Runs of axle loads step by step, with another step than the scenario's.
     pub fn loads(&self, step: Option<f64>) -> Loads<'_> {
-        let Self { plan, source, facts, criteria, judged, kept, .. } = self;
-        Loads { plan, source, criteria, facts, judged: *judged, step, bridges: &kept.bridges }
+        let Self { plan, source, facts, criteria, judged, kept, keep, .. } = self;
+        Loads { plan, source, criteria, facts, judged: *judged, step, bridges: &kept.bridges, keep: *keep }
     }
 
     /// Runs of vehicles.
     pub fn vehicles(&self) -> Vehicles<'_> {
         let Self { plan, source, facts, criteria, judged, kept, .. } = self;
-        Vehicles { plan, source, criteria, facts, judged: *judged, shared: &kept.shared }
+        let (abreast, keep) = (self.abreast, self.keep);
+        Vehicles { plan, source, criteria, facts, judged: *judged, shared: &kept.shared, abreast, keep }
     }
 
-    fn one_by_one(&self, run: &Run, stop: &AtomicBool) -> Vec<Computed> {
-        let run = std::slice::from_ref(run);
-        match self.plan.trains[run[0].train].load {
-            Load::Axles(_) => self.loads(None).compute(run, stop),
-            Load::Cars(_) | Load::Scenario => self.vehicles().compute(run, stop),
-        }
+    fn coupled(&self, runs: &[Run], of_axles: bool, stop: &AtomicBool) -> Vec<Computed> {
+        if of_axles { self.loads(None).compute(runs, stop) } else { self.vehicles().compute(runs, stop) }
     }
 }
 
 impl Compute for Runner<'_> {
-    fn batch(&self) -> usize {
+    fn batch(&self, runs: usize, workers: usize) -> usize {
         match self.plan.way {
-            Way::Modal => self.modal.batch(),
-            Way::OneAxle => self.one_axle.batch(),
-            Way::Coupled => 1,
+            Way::Modal => self.modal.batch(runs, workers),
+            Way::OneAxle => self.one_axle.batch(runs, workers),
+            Way::Coupled => self.vehicles().batch(runs, workers),
         }
     }
 
@@ -150,7 +159,16 @@ impl Compute for Runner<'_> {
         match self.plan.way {
             Way::Modal => self.modal.compute(runs, stop),
             Way::OneAxle => self.one_axle.compute(runs, stop),
-            Way::Coupled => runs.iter().flat_map(|run| self.one_by_one(run, stop)).collect(),
+            Way::Coupled => {
+                let of_axles = |run: &Run| matches!(self.plan.trains[run.train].load, Load::Axles(_));
+                let alike = runs.chunk_by(|a, b| of_axles(a) == of_axles(b));
+                alike.flat_map(|runs| self.coupled(runs, of_axles(&runs[0]), stop)).collect()
+            }
         }
     }
+}
+
+/// How many runs go side by side: beams and frames share nothing that a step reads.
+fn abreast(structure: &StructureSpec) -> usize {
+    if matches!(structure, StructureSpec::Beams { .. } | StructureSpec::Frame(_)) { 1 } else { RUNS }
 }

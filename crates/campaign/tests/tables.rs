@@ -22,8 +22,8 @@ struct Fake {
 }
 
 impl Compute for Fake {
-    fn batch(&self) -> usize {
-        self.batch.max(1)
+    fn batch(&self, runs: usize, workers: usize) -> usize {
+        self.batch.max(1).min(runs.div_ceil(4 * workers))
     }
 
     fn compute(&self, runs: &[Run], stop: &AtomicBool) -> Vec<Computed> {

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use ttb_assessment::{Facts, Missing, Results};
-use ttb_campaign::facts;
+use ttb_campaign::{Limits, facts};
 use ttb_scenario::Checked;
 
 use crate::error::Error;
@@ -81,6 +81,13 @@ impl<'a> Opened<'a> {
             warnings.extend(list.iter().filter_map(Value::as_str).map(str::to_string));
         }
         Ok(Self { files, results, assessment, checked, plan, summary, warnings })
+    }
+
+    /// The limits that a sweep was asked for with, if it was.
+    #[must_use]
+    pub fn limits(&self) -> Option<Limits> {
+        let texts: Vec<[String; 2]> = serde_json::from_value(self.plan.as_ref()?.get("limits")?.clone()).ok()?;
+        (!texts.is_empty()).then_some(Limits { texts })
     }
 }
 

@@ -41,6 +41,8 @@ pub struct Path {
     inputs: Vec<Option<usize>>,
     forces: usize,
     length: f64,
+    /// Whether the axle enters at the deck's end.
+    backward: bool,
     /// Deck points: number of the port, abscissa.
     points: Vec<(usize, f64)>,
     rates: usize,
@@ -93,6 +95,7 @@ impl Path {
             inputs,
             forces: ports.forces(),
             length,
+            backward: false,
             points,
             rates: ports.positions(),
             motions: ports.motions(),
@@ -108,9 +111,19 @@ impl Path {
         self
     }
 
-    /// Forces of the unit axle at an abscissa.
+    /// The same deck with the axle entering at its end.
+    #[must_use]
+    pub fn backward(&self) -> Self {
+        Self { backward: !self.backward, ..self.clone() }
+    }
+
+    /// Forces of the unit axle that has run `x` m since it came onto the deck.
     fn forces(&self, x: f64, forces: &mut [f64]) {
         forces.fill(0.0);
+        if !(0.0..=self.length).contains(&x) {
+            return;
+        }
+        let x = if self.backward { self.length - x } else { x };
         for (weight, input) in self.weights.at(x).into_iter().zip(&self.inputs) {
             if let Some(input) = input {
                 forces[*input] += UNIT * weight;

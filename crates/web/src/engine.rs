@@ -143,7 +143,7 @@ fn plan(session: &Session) -> Result<String, Fault> {
     runner.arrange(&mut runs);
     let trains: Vec<&str> = plan.trains.iter().map(|train| train.name.as_str()).collect();
     Ok(written(&json!({
-        "way": plan.way.name(), "chosen": session.expanded.chosen, "batch": runner.batch(), "trains": trains,
+        "way": plan.way.name(), "chosen": session.expanded.chosen, "batch": runner.batch(usize::MAX, 1), "trains": trains,
         "speeds": plan.speeds_km_h.len(), "refine": plan.refine, "hash": plan.scenario_sha256,
         "runs": runs.iter().map(Wanted::from).collect::<Vec<_>>(),
     })))

@@ -5,7 +5,7 @@ use ttb_assessment::Criteria;
 use ttb_assessment::criterion::{self, DEFAULT};
 use ttb_campaign::list::{self, Written};
 use ttb_campaign::plan::{Plan, Rail, Run};
-use ttb_campaign::request::{Choice, Request, Variants};
+use ttb_campaign::request::{Choice, Headings, Request, Variants};
 use ttb_scenario::bundled;
 
 use crate::fault::Fault;
@@ -71,6 +71,8 @@ impl Asked {
             seeds: self.seeds.clone(),
             variants,
             axes: Default::default(),
+            heading: Headings::Forward,
+            limits: Vec::new(),
             way: self.way,
         }
     }

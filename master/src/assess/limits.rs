@@ -9,6 +9,13 @@ use crate::error::Error;
 
 /// The criteria of `--limits A,B,FILE.json`; without any the default set. A name that ends in `.json` is a file.
 pub fn load(names: &[String]) -> Result<Criteria, Error> {
+    let texts = texts(names)?;
+    let read = Criteria::read(texts.iter().map(|[name, text]| (name.as_str(), text.as_str())));
+    read.map_err(|problems| Error::Input(problems.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n")))
+}
+
+/// Name and content of the files that [`load`] reads.
+pub fn texts(names: &[String]) -> Result<Vec<[String; 2]>, Error> {
     let default: Vec<String> = DEFAULT.iter().map(|name| (*name).to_string()).collect();
     // A user's file alone overrides entries of the default set.
     let only_own = names.iter().all(|name| is_file(name));
@@ -17,9 +24,9 @@ pub fn load(names: &[String]) -> Result<Criteria, Error> {
     let mut problems = Vec::new();
     for name in &all {
         match (is_file(name), criterion::text(name)) {
-            (false, Some(text)) => texts.push((name.as_str(), text.to_string())),
+            (false, Some(text)) => texts.push([name.clone(), text.to_string()]),
             (true, _) => match ttb_scenario::read_text(Path::new(name)) {
-                Ok(text) => texts.push((name.as_str(), text)),
+                Ok(text) => texts.push([name.clone(), text]),
                 Err(error) => problems.push(format!("{name}: {error}")),
             },
             (false, None) => {
@@ -28,12 +35,12 @@ pub fn load(names: &[String]) -> Result<Criteria, Error> {
             }
         }
     }
-    let read = Criteria::read(texts.iter().map(|(name, text)| (*name, text.as_str())));
-    problems.extend(read.as_ref().err().into_iter().flatten().map(ToString::to_string));
-    match read {
-        Ok(criteria) if problems.is_empty() => Ok(criteria),
-        _ => Err(Error::Input(problems.join("\n"))),
+    if problems.is_empty() {
+        return Ok(texts);
     }
+    let read = Criteria::read(texts.iter().map(|[name, text]| (name.as_str(), text.as_str())));
+    problems.extend(read.err().into_iter().flatten().map(|problem| problem.to_string()));
+    Err(Error::Input(problems.join("\n")))
 }
 
 fn is_file(name: &str) -> bool {

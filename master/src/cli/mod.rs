@@ -41,7 +41,7 @@ pub use run::{Isolate, Run};
 pub use set::Set;
 pub use signature::Signature;
 pub use statics::Static;
-pub use sweep::{Common, Sweep, Way as SweepWay};
+pub use sweep::{Common, Heading as SweepHeading, Keep, Sweep, Way as SweepWay};
 pub use ui::Ui;
 pub use view::View;
 

@@ -50,6 +50,12 @@ pub struct Sweep {
     /// How runs are computed
     #[arg(long, value_enum, default_value = "auto")]
     pub way: Way,
+    /// In which direction trains cross the bridge
+    #[arg(long, value_enum, default_value = "forward")]
+    pub heading: Heading,
+    /// Limits, names and files with commas between them: their filters decide which values are made; kept for `ttb report`
+    #[arg(long, value_name = "LIST", value_delimiter = ',')]
+    pub limits: Vec<String>,
     /// Other values of keys
     #[command(flatten)]
     pub set: Set,
@@ -79,9 +85,35 @@ pub struct Common {
     /// Compute failed runs once more
     #[arg(long)]
     pub retry: bool,
+    /// Whose histories are kept in history/ and results.h5
+    #[arg(long, value_enum, default_value = "worst", value_name = "WHOSE")]
+    pub keep_histories: Keep,
     /// No progress, no summary
     #[arg(short, long)]
     pub quiet: bool,
+}
+
+/// Whose histories are kept.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub enum Keep {
+    /// Those of all runs
+    All,
+    /// Those of the governing runs
+    #[default]
+    Worst,
+    /// None
+    None,
+}
+
+/// In which direction trains cross the bridge.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Heading {
+    /// The first axle enters at the bridge's begin
+    Forward,
+    /// The first axle enters at the bridge's end
+    Backward,
+    /// Every train once in either direction
+    Both,
 }
 
 /// How runs are computed.

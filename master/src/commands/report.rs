@@ -19,8 +19,11 @@ const VERDICTS: &str = "verdicts.json";
 /// The command.
 pub fn report(arguments: &Report) -> Result<(), Error> {
     let opened = Opened::new(&arguments.folder)?;
-    let names = if arguments.limits.is_empty() { &opened.assessment.limits } else { &arguments.limits };
-    let criteria = limits::load(names)?;
+    let criteria = match opened.limits() {
+        Some(stored) if arguments.limits.is_empty() => stored.criteria()?,
+        _ if arguments.limits.is_empty() => limits::load(&opened.assessment.limits)?,
+        _ => limits::load(&arguments.limits)?,
+    };
     let verdicts = judge(&criteria, &opened.assessment.facts, &opened.results);
     files::write_json(&arguments.folder.join(VERDICTS), &verdicts)?;
     let page = page::page(&opened, &verdicts, &criteria.people, date()?)?;

@@ -1,7 +1,7 @@
 //! Axle loads on a rigid track over the bridge: the coupled way's answer to what the modal way and the way of one axle find.
 //!
 //! ```text
-//! x_k(t) = v t − x_k          axle k from the bridge's begin; it counts while 0 < x_k < L
+//! x_k(t) = v t − x_k          axle k from the bridge's begin (backward: L − v t + x_k); it counts while 0 < x_k < L
 //! f_i    = Σ_k P_k (1 − |x_k − s_i|/s)⁺      lever between the points s_i at equal distances s; what an end's line bears is
 //!                                            the ground's
 //! ```
@@ -38,6 +38,8 @@ pub struct Passage<'a> {
     pub axles: &'a [[f64; 2]],
     /// m/s.
     pub speed: f64,
+    /// Whether the first axle enters at the deck's end.
+    pub backward: bool,
     /// Factors on mass and stiffness.
     pub variant: &'a Variant,
 }
@@ -61,6 +63,7 @@ impl Passage<'_> {
             axles: self.axles.iter().map(|[x, load]| [-x, *load]).collect(),
             speed: self.speed,
             distance,
+            backward: self.backward,
             forces: vec![0.0; ports.forces()],
         };
         let settings = Settings {
@@ -119,6 +122,7 @@ struct Loads {
     speed: f64,
     /// Of the points.
     distance: f64,
+    backward: bool,
     forces: Vec<f64>,
 }
 
@@ -130,7 +134,10 @@ impl Loads {
             if place <= 0.0 {
                 continue;
             }
-            let (before, share) = (place.floor(), place.fract());
+            // Counted from the deck's begin, whichever end is met first.
+            let parts = self.forces.len() as f64 + 1.0;
+            let place = if self.backward { parts - place } else { place };
+            let (before, share) = (place.floor(), place - place.floor());
             // Point i stands at (i + 1) distances; before the first and behind the last is the ground.
             let mut add = |i: f64, force: f64| {
                 if i >= 0.0

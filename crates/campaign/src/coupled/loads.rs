@@ -1,5 +1,6 @@
 //! Runs of axle loads on a rigid track: bridge and iteration of the coupled way.
 
+use std::path::Path;
 use std::sync::atomic::AtomicBool;
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -16,6 +17,7 @@ use super::{Source, rows};
 use crate::clock::Since;
 use crate::compute::{Compute, Computed};
 use crate::history::History;
+use crate::kept;
 use crate::plan::{Load, Plan, Run};
 use crate::record::{FORMAT, Record};
 
@@ -39,6 +41,8 @@ pub struct Loads<'a> {
     pub step: Option<f64>,
     /// Bridges that are prepared.
     pub bridges: &'a Bridges,
+    /// The campaign's folder, if the history of every run is kept there.
+    pub keep: Option<&'a Path>,
 }
 
 /// Bridges that runs share, the last used first.
@@ -79,7 +83,7 @@ impl Loads<'_> {
     fn one(&self, run: &Run, stop: &AtomicBool) -> Computed {
         let begin = Since::now();
         match self.run(run, stop) {
-            Ok(Some((record, _))) => Computed::Done(record),
+            Ok(Some((record, history))) => kept::done(record, self.keep, || history),
             Ok(None) => Computed::Stopped,
             Err(error) => Computed::Done(Record::failed(&run.id, error, begin.seconds())),
         }
@@ -108,7 +112,8 @@ impl Loads<'_> {
         checked.bridge = on_points(&checked.bridge, length, step, (end / step).ceil() * step);
         checked.train_track.step = step;
         let prepared = self.prepared(&checked.bridge)?;
-        let passage = Passage { bridge: &checked.bridge, length, axles, speed, variant };
+        let backward = !self.plan.trains[run.train].heading.is_forward();
+        let passage = Passage { bridge: &checked.bridge, length, axles, speed, backward, variant };
         Ok(passage.run(&prepared, stop)?.map(|table| (checked, table)))
     }
 

@@ -50,6 +50,9 @@ impl Source {
         if let Some(speed) = run.speed() {
             set("train.speed", json!({ "m_s": speed }));
         }
+        if !plan.trains[run.train].heading.is_forward() {
+            set("train.heading", json!("backward"));
+        }
         match run.rail {
             Rail::Scenario => {}
             Rail::Smooth => set("irregularity", json!({ "type": "none" })),

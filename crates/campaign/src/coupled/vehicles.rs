@@ -1,21 +1,27 @@
-//! Vehicles on their track over the bridge: every run is the one that `ttb run` makes of the same scenario, bit for bit.
+//! Vehicles on their track over the bridge: every run is the one that `ttb run` makes of the same scenario, bit for bit. Over a
+//! large bridge in all degrees of freedom several runs go side by side and share the sweeps over its factor
+//! ([`ttb_bridge::Abreast`]): there the two agree to rounding.
 
 use std::ops::ControlFlow;
+use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use ttb_assessment::{Criteria, Facts, Filter};
+use ttb_bridge::Abreast;
 use ttb_contract::ModelError;
 use ttb_scenario::Checked;
 use ttb_scenario::spec::StructureSpec;
 use ttb_scenario::types::{Direction, Point};
+use ttb_session::abreast::Run as Lane;
 use ttb_session::observe::{Moment, Observer};
-use ttb_session::{Case, Column, Ended, Plan as Steps, RunError, Sides, Table};
+use ttb_session::{Case, Column, Ended, Plan as Steps, RunError, Sides, Table, TimeAxis, drive_abreast};
 
 use super::rows::{self, ADDED};
 use super::{Shared, Source};
 use crate::clock::Since;
 use crate::compute::{Compute, Computed};
 use crate::history::History;
+use crate::kept;
 use crate::plan::{Plan, Run, Variant};
 use crate::points::deck_points;
 use crate::record::{FORMAT, Record};
@@ -37,24 +43,39 @@ pub struct Vehicles<'a> {
     pub judged: Filter,
     /// Tracks and bridges.
     pub shared: &'a Shared,
+    /// Runs that go side by side at most.
+    pub abreast: usize,
+    /// The campaign's folder, if the history of every run is kept there.
+    pub keep: Option<&'a Path>,
+}
+
+/// A run that is about to begin.
+struct Ready {
+    checked: Checked,
+    sides: Both,
+    axis: TimeAxis,
 }
 
 impl Compute for Vehicles<'_> {
+    fn batch(&self, runs: usize, workers: usize) -> usize {
+        self.abreast.min(runs.div_ceil(workers))
+    }
+
     fn compute(&self, runs: &[Run], stop: &AtomicBool) -> Vec<Computed> {
-        runs.iter().map(|run| self.one(run, stop)).collect()
+        runs.chunks(self.abreast.max(1)).flat_map(|runs| self.several(runs, stop)).collect()
     }
 }
 
 impl Vehicles<'_> {
-    fn one(&self, run: &Run, stop: &AtomicBool) -> Computed {
+    fn several(&self, runs: &[Run], stop: &AtomicBool) -> Vec<Computed> {
         let begin = Since::now();
-        let seconds = || begin.seconds();
-        match self.table(run, stop) {
-            Err(error) => Computed::Done(Record::failed(&run.id, error, seconds())),
+        let tables = self.tables(runs, stop);
+        let computed = runs.iter().zip(tables).map(|(run, table)| match table {
+            Err(error) => Computed::Done(Record::failed(&run.id, error, 0.0)),
             Ok(None) => Computed::Stopped,
             Ok(Some((checked, table))) => {
                 let histories = rows::histories(&table, &checked, checked.peaks);
-                Computed::Done(Record {
+                let record = Record {
                     format: FORMAT,
                     run_id: run.id.clone(),
                     error: None,
@@ -62,10 +83,20 @@ impl Vehicles<'_> {
                     modes: checked.bridge.modes,
                     peaks: rows::peaks(&histories, self.criteria, self.facts),
                     envelopes: rows::envelopes(&histories, &self.judged),
-                    seconds: seconds(),
-                })
+                    seconds: 0.0,
+                };
+                kept::done(record, self.keep, || rows::kept(table, &checked))
+            }
+        });
+        let mut computed: Vec<Computed> = computed.collect();
+        // What runs side by side took belongs to all of them alike.
+        let share = begin.seconds() / runs.len().max(1) as f64;
+        for one in &mut computed {
+            if let Computed::Done(record) = one {
+                record.seconds = share;
             }
         }
+        computed
     }
 
     /// The histories of a run; `None` if it was asked to stop.
@@ -81,20 +112,46 @@ impl Vehicles<'_> {
     /// # Errors
     /// Why it failed, a sentence.
     pub fn table(&self, run: &Run, stop: &AtomicBool) -> Result<Option<(Checked, Table)>, String> {
+        self.tables(std::slice::from_ref(run), stop).pop().unwrap_or(Ok(None))
+    }
+
+    /// Takes all steps of runs side by side.
+    fn tables(&self, runs: &[Run], stop: &AtomicBool) -> Vec<Result<Option<(Checked, Table)>, String>> {
+        let mut ready: Vec<Result<Ready, String>> = runs.iter().map(|run| self.ready(run)).collect();
+        let (wanted, clock) = (|column: &Column| rows::wanted(column), || 0.0);
+        let of_run =
+            |ready: &Ready| (Steps { axis: ready.axis, wanted: &wanted, clock: &clock }, Table::default(), Watch(stop));
+        let mut watched: Vec<_> = ready.iter().flatten().map(of_run).collect();
+        let lanes = ready.iter_mut().flatten().zip(&mut watched).map(|(ready, (plan, table, watch))| Lane {
+            system: &mut ready.sides,
+            plan,
+            observers: vec![table, watch],
+        });
+        let mut ahead = Abreast::default();
+        let mut between = |sides: &mut [&mut Both]| {
+            let bridges = sides.iter_mut().map(|sides| sides.bridge.instance().model_mut());
+            ahead.ahead(&mut bridges.collect::<Vec<_>>());
+        };
+        let ended = drive_abreast(&mut lanes.collect::<Vec<_>>(), &mut between);
+        let mut ended = ended.into_iter().zip(watched);
+        let outcome = |ready: Ready| match ended.next() {
+            Some((Ok(Ended::Complete), (_, table, _))) => Ok(Some((ready.checked, table))),
+            Some((Err(error), _)) => Err(error.to_string()),
+            Some((Ok(Ended::Stopped), _)) | None => Ok(None),
+        };
+        let mut outcome = outcome;
+        ready.into_iter().map(|ready| ready.and_then(&mut outcome)).collect()
+    }
+
+    fn ready(&self, run: &Run) -> Result<Ready, String> {
         let mut checked = self.source.of_run(self.plan, run).map_err(|problems| problems.to_string())?;
         add_points(&mut checked);
         let mut prepared = self.shared.take(&checked).map_err(|error| error.to_string())?;
         let mut sides = prepared.sides(&checked).map_err(|error| error.to_string())?;
         self.shared.give(&prepared, &checked);
         set_factors(&mut sides, &self.plan.variants[run.variant]).map_err(|error| error.to_string())?;
-        let case = Case::of(&checked);
-        let steps = Steps { axis: case.axis(), wanted: &|column: &Column| rows::wanted(column), clock: &|| 0.0 };
-        let (mut table, mut watch) = (Table::default(), Watch(stop));
-        match sides.run(&steps, &mut [&mut table, &mut watch]) {
-            Ok(Ended::Complete) => Ok(Some((checked, table))),
-            Ok(Ended::Stopped) => Ok(None),
-            Err(error) => Err(error.to_string()),
-        }
+        let axis = Case::of(&checked).axis();
+        Ok(Ready { checked, sides, axis })
     }
 }
 

@@ -3,6 +3,7 @@
 use ttb_assessment::peak::{Peak, PlaceKind, Statistic, quantity};
 use ttb_campaign::plan::{FORMAT, Load, Rail, Train, Variant};
 use ttb_campaign::{Envelope, Plan, Record, Way};
+use ttb_scenario::types::Heading;
 
 /// A plan of `trains` trains at `speeds` speeds.
 pub fn plan(trains: usize, speeds: usize) -> Plan {
@@ -10,6 +11,7 @@ pub fn plan(trains: usize, speeds: usize) -> Plan {
         name: format!("train, {i}"),
         max_speed_km_h: None,
         load: Load::Axles(vec![[0.0, 1e5 + i as f64], [3.0, 1e5]]),
+        heading: Heading::Forward,
     };
     Plan {
         format: FORMAT,
@@ -24,6 +26,8 @@ pub fn plan(trains: usize, speeds: usize) -> Plan {
         variants: vec![Variant::default()],
         rails: vec![Rail::Scenario],
         speeds_km_h: (0..speeds).map(|i| 100.0 + i as f64).collect(),
+        limits: Vec::new(),
+        values: String::new(),
     }
 }
 

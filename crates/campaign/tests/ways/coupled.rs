@@ -11,7 +11,8 @@ use ttb_campaign::coupled::{Bridges, Loads, Shared, Source, Vehicles};
 use ttb_campaign::modal::Modal;
 use ttb_campaign::plan::{Load, Rail, Train, Variant};
 use ttb_campaign::request::Request;
-use ttb_campaign::{Compute, Computed, Plan, Record, expand, facts};
+use ttb_campaign::{Compute, Computed, Limits, Plan, Record, expand, facts};
+use ttb_scenario::types::Heading;
 use ttb_session::{Case, Column, Plan as Steps, Table};
 
 type Prepared = ttb_session::Prepared<ttb_train_track::Prepared, ttb_bridge::Prepared>;
@@ -27,7 +28,7 @@ fn source_of(path: &Path) -> Source {
 }
 
 fn plan_of(load: Load, speeds: &[f64]) -> Plan {
-    let train = Train { name: "one".into(), max_speed_km_h: None, load };
+    let train = Train { name: "one".into(), max_speed_km_h: None, load, heading: Heading::Forward };
     Plan { trains: vec![train], speeds_km_h: speeds.to_vec(), rails: vec![Rail::Scenario], ..common::plan(0, 0) }
 }
 
@@ -45,12 +46,12 @@ fn a_run_of_a_sweep_has_the_bits_of_the_same_scenario_run_alone() {
     let plan = plan_of(Load::Scenario, &[220.0, 250.0]);
     let facts = facts::of(&source.checked().expect("checked"));
     let shared = Shared::default();
-    let with =
-        Vehicles { plan: &plan, source: &source, criteria: &criteria, facts: &facts, judged: JUDGED, shared: &shared };
+    let (plan, source, criteria, facts, shared) = (&plan, &source, &criteria, &facts, &shared);
+    let with = Vehicles { plan, source, criteria, facts, judged: JUDGED, shared, abreast: 2, keep: None };
     let runs = plan.runs();
     for run in &runs {
         let history = with.history(run, &AtomicBool::new(false)).expect("run").expect("whole");
-        let checked = source.of_run(&plan, run).expect("checked");
+        let checked = source.of_run(plan, run).expect("checked");
         let mut alone = Table::default();
         let mut sides = Prepared::new(&checked).expect("prepared").sides(&checked).expect("sides");
         let steps = Steps { axis: Case::of(&checked).axis(), wanted: &Column::has_extremes, clock: &|| 0.0 };
@@ -104,6 +105,7 @@ fn loads_on_a_rigid_track_agree_with_the_modal_way() {
         judged: JUDGED,
         step: None,
         bridges: &bridges,
+        keep: None,
     };
     let modal = Modal::new(&plan, &source, vec![JUDGED]);
     let (runs, stop) = (plan.runs(), AtomicBool::new(false));
@@ -152,7 +154,8 @@ fn a_request_names_all_its_problems_at_once() {
         variants: ttb_campaign::request::Variants::Word("bound".into()),
         ..Request::default()
     };
-    let error = expand::expand(&request, "0", Path::new(""), &|_| true).err().expect("refused").to_string();
+    let error =
+        expand::expand(&request, "0", Path::new(""), &Limits::default(), &|_| true).err().expect("refused").to_string();
     for told in ["hslm-z", "must rise", "seeds", "`bound`"] {
         assert!(error.contains(told), "{told}: {error}");
     }

@@ -18,8 +18,8 @@ struct Resonant {
 }
 
 impl Compute for Resonant {
-    fn batch(&self) -> usize {
-        2
+    fn batch(&self, runs: usize, workers: usize) -> usize {
+        ttb_campaign::compute::small(2, runs, workers)
     }
 
     fn compute(&self, runs: &[Run], stop: &AtomicBool) -> Vec<Computed> {

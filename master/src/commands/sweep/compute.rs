@@ -3,16 +3,18 @@
 use std::path::Path;
 
 use ttb_campaign::expand::{self, Expanded};
+use ttb_campaign::history::History;
 use ttb_campaign::plan::Plan;
 use ttb_campaign::request::Request;
 use ttb_campaign::status::Status;
-use ttb_campaign::{Folder, Runner, Shard, facts};
+use ttb_campaign::{Folder, Limits, Runner, Shard, facts};
 use ttb_passage::{ModalBridge, Refused, Settings};
 
 use super::estimate::estimate;
 use super::outcome;
 use super::progress::Told;
-use crate::cli::Common;
+use crate::assess::limits;
+use crate::cli::{Common, Keep};
 use crate::error::Error;
 use crate::results::folder::Folder as Claimed;
 use crate::signals::Stop;
@@ -34,7 +36,10 @@ pub fn expand(request: &Request, beside: &Path) -> Result<Expanded, Error> {
     let modal = |checked: &ttb_scenario::Checked| {
         !matches!(ModalBridge::new(&checked.bridge, &Settings::default()), Err(Refused::NotDiagonal))
     };
-    Ok(expand::expand(request, VERSION, beside, &modal)?)
+    let texts = if request.limits.is_empty() { Vec::new() } else { limits::texts(&request.limits)? };
+    let limits = Limits { texts };
+    limits.criteria()?;
+    Ok(expand::expand(request, VERSION, beside, &limits, &modal)?)
 }
 
 /// A stored plan with its scenario, which must mean what it meant.
@@ -63,7 +68,9 @@ pub fn compute(expanded: Expanded, common: &Common, stop: &Stop) -> Result<(), E
         return Err(Error::Input("no run is asked for: every train's greatest speed is below the first speed".into()));
     }
     let workers = common.jobs.unwrap_or_else(|| std::thread::available_parallelism().map_or(1, usize::from)).max(1);
+    let all = common.keep_histories == Keep::All;
     let runner = Runner::new(&expanded)?;
+    let runner = if all { runner.keeping(&common.output) } else { runner };
     if common.dry_run {
         return estimate(&expanded.plan, &runner, common, workers, stop);
     }
@@ -79,6 +86,9 @@ pub fn compute(expanded: Expanded, common: &Common, stop: &Stop) -> Result<(), E
     }
     if common.retry {
         retry(&folder, shard)?;
+    }
+    if all {
+        without_history(&folder, shard)?;
     }
     stop.gently();
     let told = Told::new(common.quiet);
@@ -96,7 +106,17 @@ pub fn compute(expanded: Expanded, common: &Common, stop: &Stop) -> Result<(), E
     if shard != Shard::WHOLE {
         return outcome::of_shard(&folder, shard, common.quiet);
     }
-    outcome::finish(&folder, &runner, &expanded, common.quiet, stop)
+    outcome::finish(&folder, &runner, &expanded, (common.quiet, common.keep_histories), stop)
+}
+
+/// Removes the files of runs that were done when no histories were asked for.
+fn without_history(folder: &Folder, shard: Shard) -> Result<(), Error> {
+    for (_, run) in folder.plan.runs().iter().enumerate().filter(|(i, _)| shard.has(*i)) {
+        if !History::is_kept(folder.path(), &run.id) {
+            folder.journal.remove(&run.id)?;
+        }
+    }
+    Ok(())
 }
 
 /// Removes the files of failed runs.
@@ -115,5 +135,5 @@ pub fn merge(path: &Path, stop: &Stop) -> Result<(), Error> {
     let _claimed = Claimed::claim(path, stop)?;
     stop.gently();
     let folder = Folder::read(path)?;
-    outcome::finish(&folder, &Runner::new(&expanded)?, &expanded, false, stop)
+    outcome::finish(&folder, &Runner::new(&expanded)?, &expanded, (false, Keep::Worst), stop)
 }

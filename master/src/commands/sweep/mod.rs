@@ -9,9 +9,9 @@ use std::path::Path;
 
 use ttb_campaign::list::Written;
 use ttb_campaign::plan::Variant;
-use ttb_campaign::request::{Choice, Request, Variants};
+use ttb_campaign::request::{Choice, Headings, Request, Variants};
 
-use crate::cli::{Sweep, SweepWay};
+use crate::cli::{Sweep, SweepHeading, SweepWay};
 use crate::error::Error;
 use crate::signals::Stop;
 
@@ -41,6 +41,12 @@ fn request(arguments: &Sweep) -> Result<Request, Error> {
             SweepWay::OneAxle => Choice::OneAxle,
             SweepWay::Coupled => Choice::Coupled,
         },
+        heading: match arguments.heading {
+            SweepHeading::Forward => Headings::Forward,
+            SweepHeading::Backward => Headings::Backward,
+            SweepHeading::Both => Headings::Both,
+        },
+        limits: arguments.limits.clone(),
     })
 }
 

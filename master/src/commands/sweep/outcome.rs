@@ -12,6 +12,7 @@ use ttb_campaign::status::Status;
 use ttb_campaign::{Folder, Run, Runner, Shard, Way};
 use ttb_scenario::spec::Profile;
 
+use crate::cli::Keep;
 use crate::error::Error;
 use crate::files::write_json;
 use crate::pictures::speeds::{Line, Speeds};
@@ -33,11 +34,17 @@ pub fn of_shard(folder: &Folder, shard: Shard, quiet: bool) -> Result<(), Error>
 }
 
 /// Ends a campaign.
-pub fn finish(folder: &Folder, runner: &Runner, expanded: &Expanded, quiet: bool, stop: &Stop) -> Result<(), Error> {
+pub fn finish(
+    folder: &Folder,
+    runner: &Runner,
+    expanded: &Expanded,
+    (quiet, keep): (bool, Keep),
+    stop: &Stop,
+) -> Result<(), Error> {
     let runs = folder.runs(&runner.refined())?;
     let status = Status::of(&runs, &folder.journal)?;
     let governing = governing::of(&runs, &runner.refined().keys, &folder.journal)?;
-    let compared = again(folder, runner, &governing, stop)?;
+    let compared = again(folder, runner, &governing, keep, stop)?;
     let own_is_smooth = matches!(expanded.checked.train_track.irregularity, Profile::None);
     folder.tables(&runs, own_is_smooth)?;
     curves(folder, &runs, &expanded.checked.scenario.title)?;
@@ -80,14 +87,22 @@ fn failed(status: &Status) -> Result<(), Error> {
 }
 
 /// Governing runs once more: their histories, and of axle loads what the coupled way says.
-fn again(folder: &Folder, runner: &Runner, governing: &[Governing], stop: &Stop) -> Result<Vec<Compared>, Error> {
+fn again(
+    folder: &Folder,
+    runner: &Runner,
+    governing: &[Governing],
+    keep: Keep,
+    stop: &Stop,
+) -> Result<Vec<Compared>, Error> {
     let mut compared = Vec::new();
     let mut known: Vec<(String, Option<ttb_campaign::Record>)> = Vec::new();
     for one in governing {
         if !known.iter().any(|(id, _)| *id == one.run.id) {
             match runner.again(&one.run, one.step, stop.flag()) {
                 Ok(Some((record, history))) => {
-                    history.write(folder.path(), &one.run.id)?;
+                    if keep == Keep::Worst {
+                        history.write(folder.path(), &one.run.id)?;
+                    }
                     known.push((one.run.id.clone(), record));
                 }
                 Ok(None) => return stop.asked().map_or(Ok(Vec::new()), |signal| Err(Error::Interrupted(signal))),
