@@ -196,7 +196,7 @@ fn run_connected(
     let mut look = |found: &Probe| {
         probe.clone_from(found);
         let told = match own {
-            Some(structure) => judge_own(found, &name, structure, repeats)?,
+            Some(structure) => judge_own(found, &name, structure, parts, repeats)?,
             None => judge(found, &name, parts, *rules, repeats)?,
         };
         warn(&told);

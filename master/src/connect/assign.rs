@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 
+use ttb_contract::Component;
 use ttb_coupling::{Stations, Watch};
 use ttb_fmi::description::{ModelDescription, VariableType};
 use ttb_fmi::{FmuInstance, Linear};
@@ -33,13 +34,24 @@ pub struct Assigned {
     pub stations: Option<Stations>,
     /// Whether it gives velocities.
     pub velocities: bool,
+    /// Components of force and motion at each place.
+    pub components: usize,
     /// What else of its motion is recorded.
     pub watch: Option<Watch>,
 }
 
 /// What is coupled, as powers of kg, m, s.
-const QUANTITIES: [(&str, [i32; 3]); 3] =
-    [("force", [1, 1, -2]), ("displacement", [0, 1, 0]), ("velocity", [0, 1, -1])];
+const QUANTITIES: [(&str, [i32; 3]); 9] = [
+    ("force", [1, 1, -2]),
+    ("displacement", [0, 1, 0]),
+    ("velocity", [0, 1, -1]),
+    ("force_y", [1, 1, -2]),
+    ("displacement_y", [0, 1, 0]),
+    ("velocity_y", [0, 1, -1]),
+    ("moment_x", [1, 2, -2]),
+    ("rotation_x", [0, 0, 0]),
+    ("angular_velocity_x", [0, 0, -1]),
+];
 
 impl Ends {
     /// Adds a variable.
@@ -66,7 +78,16 @@ impl Assigned {
     /// Every variable to one of the other side: the train–track side's forces, out of it and into the bridge, and the
     /// bridge's motions, out of it and into the train–track side.
     pub fn one_to_one([forces_out, forces_in]: [Ends; 2], [motions_out, motions_in]: [Ends; 2]) -> Self {
-        Self { forces_in, motions_out, forces_out, motions_in, stations: None, velocities: true, watch: None }
+        Self {
+            forces_in,
+            motions_out,
+            forces_out,
+            motions_in,
+            stations: None,
+            velocities: true,
+            components: 1,
+            watch: None,
+        }
     }
 }
 
@@ -78,16 +99,25 @@ pub fn declared(description: &ModelDescription, name: &str) -> Result<Option<Lin
     let unit = description.variable(name).and_then(|variable| Some((variable.unit.as_ref()?, variable)));
     let Some((unit_name, _)) = unit else { return Ok(None) };
     let Some(unit) = description.units.get(unit_name) else { return Ok(None) };
-    let Some((what, powers)) = QUANTITIES.into_iter().find(|(what, _)| name.ends_with(what)) else {
+    // The longest: `velocity` also ends `angular_velocity`.
+    let of = QUANTITIES.into_iter().filter(|(what, _)| name.ends_with(what)).max_by_key(|(what, _)| what.len());
+    let Some((what, powers)) = of else {
         return Ok(Some(Linear { factor: unit.factor, offset: unit.offset }));
     };
     if unit.powers == [0; 8] && unit.factor == 1.0 {
         return Ok(None); // declared by name only
     }
-    if unit.powers[..3] != powers || unit.powers[3..].iter().any(|p| *p != 0) {
+    if !fits(&unit.powers, what, powers) {
         return Err(format!("{name} is in {unit_name}, which is no unit of a {what}"));
     }
     Ok(Some(Linear { factor: unit.factor, offset: unit.offset }))
+}
+
+/// Whether a unit's powers are those of a quantity; an angle may count as a power of its own, the eighth.
+fn fits(unit: &[i32; 8], what: &str, powers: [i32; 3]) -> bool {
+    let angle = what.starts_with("rotation") || what.starts_with("angular");
+    let others = if angle { 3..7 } else { 3..8 };
+    unit[..3] == powers && unit[others].iter().all(|p| *p == 0)
 }
 
 /// Range of supports and stations of every bridge; `supports` are the track's supports on bridges, m from the begin.
@@ -189,6 +219,7 @@ pub fn assign(
         stations.map_err(|e| problems.others.push(e.to_string())).ok()
     });
     let points = places.map_or(range.len(), Vec::len);
+    let mut lacking = Vec::new();
     let mut theirs = |series: &Series, what: &str, causality: &str| {
         let mut ends = Ends::default();
         for k in 1..=points {
@@ -206,10 +237,29 @@ pub fn assign(
         }
         ends
     };
-    let forces_in = theirs(&map.force, "force", "input");
-    let mut motions_out = theirs(&map.displacement, "displacement", "output");
-    if let Some(velocity) = &map.velocity {
-        motions_out.extend(theirs(velocity, "velocity", "output"));
+    let wanted = |component: &Component| {
+        let input = format!("support[{}].{}", range.start + 1, component.position());
+        *component == Component::Vertical || has(train_track, &input, "input")
+    };
+    let (mut components, mut absent) = (Vec::new(), Vec::new());
+    for component in Component::ALL.into_iter().filter(wanted) {
+        match map.series(component, description) {
+            Some([Some(force), Some(position), rate]) => components.push((component, force, position, rate)),
+            Some(_) => lacking.push(component),
+            None => absent.push(component),
+        }
+    }
+    warnings.extend(without(bridge.name(), &absent));
+    let velocities = components.iter().all(|(.., rate)| rate.is_some());
+    let [mut forces_in, mut motions_out] = [Ends::default(), Ends::default()];
+    for (component, force, ..) in &components {
+        forces_in.extend(theirs(force, component.force(), "input"));
+    }
+    for (component, _, position, _) in &components {
+        motions_out.extend(theirs(position, component.position(), "output"));
+    }
+    for (component, .., rate) in components.iter().filter(|_| velocities) {
+        motions_out.extend(rate.iter().map(|rate| theirs(rate, component.rate(), "output")).next().unwrap_or_default());
     }
     let mut ours = |what: &str, causality: &str| {
         let mut ends = Ends::default();
@@ -223,13 +273,19 @@ pub fn assign(
         }
         ends
     };
-    let forces_out = ours("force", "output");
-    let mut motions_in = ours("displacement", "input");
-    motions_in.extend(ours("velocity", "input"));
+    let [mut forces_out, mut motions_in] = [Ends::default(), Ends::default()];
+    components.iter().for_each(|(component, ..)| forces_out.extend(ours(component.force(), "output")));
+    components.iter().for_each(|(component, ..)| motions_in.extend(ours(component.position(), "input")));
+    components.iter().for_each(|(component, ..)| motions_in.extend(ours(component.rate(), "input")));
+    problems.others.extend(
+        lacking
+            .into_iter()
+            .map(|component: Component| format!("the map names {} but no {}", component.force(), component.position())),
+    );
     problems.tell(bridge.name(), points)?;
-    if map.velocity.is_none() {
+    if !velocities {
         warnings.push(format!(
-            "{}: it gives no velocities (velocity is null): they follow from its displacements by the trapezoidal rule, as \
+            "{}: it gives no velocities (or not of every component): they follow from its displacements by the trapezoidal rule, as \
              accurate as its own where it integrates by it, of second order elsewhere (docs/guide/bridges.md)",
             bridge.name()
         ));
@@ -238,8 +294,24 @@ pub fn assign(
     if more > points {
         warnings.push(format!("{}: {} forces beyond the {points} mapped ones stay 0", bridge.name(), more - points));
     }
-    let (velocities, watch) = (map.velocity.is_some(), None);
-    Ok(Assigned { forces_in, motions_out, forces_out, motions_in, stations, velocities, watch })
+    let (components, watch) = (components.len(), None);
+    Ok(Assigned { forces_in, motions_out, forces_out, motions_in, stations, velocities, components, watch })
+}
+
+/// What a bridge without some components means; nothing where it has all.
+pub fn without(bridge: &str, components: &[Component]) -> Option<String> {
+    let motion = |component: &Component| match component {
+        Component::Vertical => format!("vertically ({})", component.position()),
+        Component::Lateral => format!("across the track ({})", component.position()),
+        Component::Roll => format!("about the track ({})", component.position()),
+    };
+    let motions: Vec<String> = components.iter().map(motion).collect();
+    (!motions.is_empty()).then(|| {
+        format!(
+            "{bridge} gives no motion {}: it is taken as 0, and such forces and moments of the track go to the ground",
+            motions.join(" and ")
+        )
+    })
 }
 
 /// From SI to a variable: by the map's factor, else by the unit it declares.
@@ -250,7 +322,7 @@ fn line(series: &Series, description: &ModelDescription, name: &str, what: &str,
     let unit = description.variable(name).and_then(|variable| description.units.get(variable.unit.as_ref()?));
     let Some(unit) = unit.filter(|unit| unit.powers != [0; 8]) else { return Linear::IDENTITY };
     let powers = QUANTITIES.into_iter().find(|(quantity, _)| *quantity == what).map_or([0; 3], |(_, powers)| powers);
-    if unit.powers[..3] != powers || unit.powers[3..].iter().any(|p| *p != 0) {
+    if !fits(&unit.powers, what, powers) {
         problems.push(format!("the unit of {name} is none of a {what}: give a factor if it is one all the same"));
     }
     Linear { factor: unit.factor, offset: unit.offset }.inverse()

@@ -210,8 +210,9 @@ pub fn couple(
         let side = if plain {
             Adapted::plain(side)
         } else {
-            let (points, stations) = (assigned.forces_in.names.len(), assigned.stations.clone());
-            Adapted::new(side, Lacks { points, components: 1, stations, velocities: !assigned.velocities }, case.step)
+            let (components, stations) = (assigned.components.max(1), assigned.stations.clone());
+            let points = assigned.forces_in.names.len() / components;
+            Adapted::new(side, Lacks { points, components, stations, velocities: !assigned.velocities }, case.step)
         };
         let side = match assigned.watch.take() {
             Some(watch) => side.watched(watch),

@@ -2,10 +2,12 @@
 
 use std::collections::HashSet;
 
+use ttb_contract::Component;
+use ttb_contract::names::parse_support;
 use ttb_fmi::description::{ModelDescription, VariableType};
 use ttb_fmi::{FmuInstance, Linear};
 
-use super::assign::{Assigned, Ends, declared};
+use super::assign::{Assigned, Ends, declared, without};
 use crate::error::Error;
 
 /// Everything that has the same name on both sides, in its declared units.
@@ -16,7 +18,9 @@ pub fn equal_names(
 ) -> Result<Assigned, Error> {
     let forces = shared(train_track.description(), bridge.description());
     let motions = shared(bridge.description(), train_track.description());
-    if let Some(open) = unconnected(train_track.description(), &motions) {
+    let (absent, told) = absent(train_track.description(), &motions);
+    let connected = [&motions[..], &absent].concat();
+    if let Some(open) = unconnected(train_track.description(), &connected) {
         return Err(Error::Input(format!(
             "{}: no output of {} has the name of its input {open}",
             train_track.name(),
@@ -30,6 +34,7 @@ pub fn equal_names(
         )));
     }
     refuse_other_scenarios(bridge, train_track, &forces)?;
+    warnings.extend(without(bridge.name(), &told));
     if let Some(open) = unconnected(bridge.description(), &forces) {
         warnings.push(format!("{}: input {open} is connected to nothing and keeps its start value", bridge.name()));
     }
@@ -53,6 +58,23 @@ pub fn equal_names(
     } else {
         Err(Error::Input(problems.join("\n  ")))
     }
+}
+
+/// Inputs of the train–track side for components of the deck's motion of which the bridge gives none, and those components: a
+/// bridge that moves vertically only stays usable in space.
+fn absent(train_track: &ModelDescription, motions: &[String]) -> (Vec<String>, Vec<Component>) {
+    let of = |name: &str| {
+        let (_, quantity) = parse_support(name)?;
+        [Component::Lateral, Component::Roll]
+            .into_iter()
+            .find(|component| [component.position(), component.rate()].contains(&quantity))
+    };
+    let given: HashSet<Component> = motions.iter().filter_map(|name| of(name)).collect();
+    let inputs = train_track.with_causality("input").filter_map(|v| Some((v.name.clone(), of(&v.name)?)));
+    let absent: Vec<(String, Component)> = inputs.filter(|(_, component)| !given.contains(component)).collect();
+    let has = |component: &Component| absent.iter().any(|(_, other)| other == component);
+    let components = [Component::Lateral, Component::Roll].into_iter().filter(has).collect();
+    (absent.into_iter().map(|(name, _)| name).collect(), components)
 }
 
 /// Real outputs of `from` that are Real inputs of `to`, in the order of the inputs.

@@ -6,7 +6,7 @@
 
 use std::collections::HashMap;
 
-use ttb_contract::names::{instant_force, sibling};
+use ttb_contract::names::{instant_force, parse_support, sibling};
 use ttb_contract::{Component, Known, Port, Ports};
 use ttb_fmi::description::ModelDescription;
 
@@ -32,7 +32,8 @@ pub fn in_order(assigned: &mut Assigned, train_track: &ModelDescription, axle_lo
     order.sort_by_key(|i| known(&pairs[*i]));
     let port = |i: &usize| {
         let component = component(&forces[*i]);
-        Port { support: i + 1, component, scale: axle_load * component.lever(), known: known(&pairs[*i]) }
+        let support = parse_support(&forces[*i]).map_or(i + 1, |(support, _)| support);
+        Port { support, component, scale: axle_load * component.lever(), known: known(&pairs[*i]) }
     };
     let list: Vec<Port> = order.iter().map(port).collect();
     let of = |which: usize, least: Known| -> Vec<usize> {

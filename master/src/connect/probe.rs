@@ -1,5 +1,6 @@
 //! What the trial steps before the first one mean, in the words of the map.
 
+use ttb_contract::names::parse_support;
 use ttb_coupling::probe::response::{CREDIBLE, Mismatch, Response};
 use ttb_coupling::probe::{Probe, returns};
 use ttb_scenario::spec::StructureSpec;
@@ -84,6 +85,7 @@ pub fn judge_own(
     probe: &Probe,
     train_track: &str,
     bridge: &StructureSpec,
+    parts: &[(String, Assigned)],
     repeats: bool,
 ) -> Result<Vec<String>, RunError> {
     judge(&Probe { responses: Vec::new(), ..probe.clone() }, train_track, &[], Rules::Deck, repeats)?;
@@ -112,13 +114,14 @@ pub fn judge_own(
     let mut warnings = Vec::new();
     for response in &probe.responses {
         let seen = response.mass[0];
+        let number = |i: usize| parts.first().map_or_else(|| (i + 1).to_string(), |(_, part)| part.number(i, response));
         match response.mismatch() {
             None => {}
             Some(Mismatch::Still(_)) => {
                 return refused(format!("the deck does not move under forces on its supports: look at {supports}"));
             }
             Some(Mismatch::Against(i)) => {
-                let number = i + 1;
+                let number = number(i);
                 return refused(format!(
                     "the deck moves against a force on support {number}, at other supports it does not: look at {supports}; \
                      have weights there the wrong sign? (trial forces before the first step show this; --no-probe skips them)"
@@ -128,8 +131,8 @@ pub fn judge_own(
                 return refused(format!(
                     "forces on supports {} and {} move each other's place as on no deck: look at {supports}; are rows or nodes \
                      mixed up? (trial forces before the first step show this; --no-probe skips them)",
-                    i + 1,
-                    j + 1
+                    number(i),
+                    number(j)
                 ));
             }
             Some(_) if seen < 0.0 => {
@@ -176,6 +179,16 @@ impl Assigned {
         (name, if key == "force" { line.factor } else { line.factor.recip() })
     }
 
+    /// Number of the support, and component, of the force at a position.
+    fn number(&self, i: usize, response: &Response) -> String {
+        let name = i.checked_sub(response.forces.start).and_then(|own| self.forces_out.names.get(own));
+        match name.and_then(|name| parse_support(name)) {
+            Some((support, "force" | "mean_force")) => support.to_string(),
+            Some((support, component)) => format!("{support} ({component})"),
+            None => (i + 1).to_string(),
+        }
+    }
+
     /// The factor that makes values `excess` times larger ones right.
     fn mend(&self, key: &str, excess: f64) -> String {
         if key == "velocity" && !self.velocities {
@@ -188,7 +201,7 @@ impl Assigned {
     /// What a mismatch means for its variables.
     fn says(&self, mismatch: &Mismatch, response: &Response) -> String {
         const MOTIONS: [&str; 2] = ["displacement", "velocity"];
-        let number = |i: usize| i + 1;
+        let number = |i: usize| self.number(i, response);
         let seen = || format!("the deck answers as if it had {:.2e} kg under each support", response.mass[0].abs());
         match *mismatch {
             Mismatch::Still(which) => {

@@ -17,7 +17,9 @@
 //! their value = factor · our value
 //! ```
 //!
-//! so 1e-3 stands for kN, 1e3 for mm, a negative factor for up positive. Without `stations` their places are our supports.
+//! so 1e-3 stands for kN, 1e3 for mm, a negative factor for up positive. In a run in space `force_y`, `displacement_y`,
+//! `velocity_y` (to the right) and `moment_x`, `rotation_x`, `angular_velocity_x` (about the track, right side down) do the
+//! same for the other components; a component whose force has no key is coupled where the FMU has our names. Without `stations` their places are our supports.
 
 mod fields;
 
@@ -26,6 +28,9 @@ use std::path::{Path, PathBuf};
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+
+use ttb_contract::Component;
+use ttb_fmi::description::ModelDescription;
 
 use crate::error::Error;
 pub use fields::{Even, INDEX, Interpolation, Places, Read, Series, Value};
@@ -43,6 +48,24 @@ pub struct Map {
     /// Outputs: their velocities; null: there are none, they follow from the displacements.
     #[serde(default = "our_velocity")]
     pub velocity: Option<Series>,
+    /// Inputs of the bridge in space: forces across the track; absent: by our names, if it has them.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub force_y: Option<Series>,
+    /// Outputs: the deck's displacements across the track.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub displacement_y: Option<Series>,
+    /// Outputs: their velocities; null: there are none, all velocities follow from displacements and rotations.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub velocity_y: Option<Series>,
+    /// Inputs of the bridge in space: moments about the track; absent: by our names, if it has them.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub moment_x: Option<Series>,
+    /// Outputs: the deck's rotations about the track.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub rotation_x: Option<Series>,
+    /// Outputs: their rates; null: there are none, all velocities follow from displacements and rotations.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub angular_velocity_x: Option<Series>,
     /// Where their places are, if they are not our supports.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub stations: Option<Places>,
@@ -101,6 +124,12 @@ impl Default for Map {
             force: our_force(),
             displacement: our_displacement(),
             velocity: our_velocity(),
+            force_y: None,
+            displacement_y: None,
+            velocity_y: None,
+            moment_x: None,
+            rotation_x: None,
+            angular_velocity_x: None,
             stations: None,
             interpolation: Interpolation::default(),
             bearings: Vec::new(),
@@ -126,12 +155,37 @@ impl Map {
         if problems.is_empty() { Ok(map) } else { Err(refused(problems.join(&format!("\n{}: ", path.display())))) }
     }
 
+    /// Force, position and rate of a component: as given, or by our names where the bridge has them. `None`: the bridge has no
+    /// such component. Of a component whose force the map names its position is needed too, its rate is not.
+    pub fn series(&self, component: Component, bridge: &ModelDescription) -> Option<[Option<Series>; 3]> {
+        let (force, position, rate) = match component {
+            Component::Vertical => {
+                return Some([Some(self.force.clone()), Some(self.displacement.clone()), self.velocity.clone()]);
+            }
+            Component::Lateral => (&self.force_y, &self.displacement_y, &self.velocity_y),
+            Component::Roll => (&self.moment_x, &self.rotation_x, &self.angular_velocity_x),
+        };
+        let or_ours = |given: &Option<Series>, what: &str| {
+            given.clone().or_else(|| Some(ours(what)).filter(|series| series.count(bridge) > 0))
+        };
+        let force = or_ours(force, component.force())?;
+        let named = force != ours(component.force());
+        let rate = if named { rate.clone() } else { or_ours(rate, component.rate()) };
+        Some([Some(force), or_ours(position, component.position()), rate])
+    }
+
     /// Everything that is wrong with it, each with its place.
     fn problems(&self) -> Vec<String> {
         let series = [
             ("force", Some(&self.force)),
             ("displacement", Some(&self.displacement)),
             ("velocity", self.velocity.as_ref()),
+            ("force_y", self.force_y.as_ref()),
+            ("displacement_y", self.displacement_y.as_ref()),
+            ("velocity_y", self.velocity_y.as_ref()),
+            ("moment_x", self.moment_x.as_ref()),
+            ("rotation_x", self.rotation_x.as_ref()),
+            ("angular_velocity_x", self.angular_velocity_x.as_ref()),
         ];
         let told = |(key, series): (&str, Option<&Series>)| series?.problem().map(|rule| format!("$.{key}: {rule}"));
         let mut problems: Vec<String> = series.into_iter().filter_map(told).collect();
