@@ -93,6 +93,14 @@ pub fn only_in_runs(checked: &Checked, command: &str) -> Result<(), Error> {
     )))
 }
 
+/// Refuses runs in space where the methods are plane.
+pub fn only_plane(checked: &Checked, command: &str) -> Result<(), Error> {
+    if checked.train_track.space.is_none() {
+        return Ok(());
+    }
+    Err(Error::Input(format!("$.space: {command} knows plane runs only: leave the key out, or use ttb run")))
+}
+
 /// Writes TrainTrack.fmu and Bridge.fmu into `folder`; `ready` is the bridge, if it is prepared already.
 pub fn build(checked: &Checked, ready: Option<Arc<ttb_bridge::Prepared>>, folder: &Path) -> Result<Built, Error> {
     let ready = ready.map_or_else(|| prepared_bridge(checked), Ok)?;

@@ -9,7 +9,7 @@ use ttb_bridge::drawing::Drawing;
 use ttb_bridge::system::Work;
 use ttb_bridge::{Bridge, Prepared};
 use ttb_contract::names::mean_force;
-use ttb_contract::{Instance, Model, ModelError};
+use ttb_contract::{Component, Instance, Model, ModelError};
 use ttb_dynamics::newmark::Motion;
 use ttb_scenario::Checked;
 use ttb_session::column::{Column, Kind};
@@ -52,7 +52,10 @@ impl Crossing {
         let case = Case { supports: true, ..Case::of(checked) };
         let mut sides = Sides::new(train_track, bridge()?, &case).map_err(failed)?;
         let mut table = Table::default();
-        let force = |column: &Column| matches!(column.quantity, Quantity::Force | Quantity::MeanForce);
+        let force = |column: &Column| {
+            let name = column.quantity.name();
+            Component::ALL.into_iter().any(|component| [component.force(), component.mean_force()].contains(&name))
+        };
         let wanted = |column: &Column| {
             column.is(Kind::Wheel, &Quantity::Position) || column.of.kind() == Kind::Support && force(column)
         };

@@ -27,6 +27,7 @@ const HISTORIES: &str = "histories.csv";
 pub fn compare(arguments: &Compare, stop: &Stop) -> Result<(), Error> {
     let (checked, _) = decided(arguments.scenario.as_deref(), &arguments.set)?;
     fmus::only_in_runs(&checked, "ttb compare")?;
+    fmus::only_plane(&checked, "ttb compare")?;
     let watched = Watched::new(&checked, arguments.point.as_deref(), arguments.car, arguments.wheel)?;
     let folder = Folder::claim(&arguments.output, stop)?;
     let mut bench = Bench { checked: &checked, watched, budget: f64::INFINITY, stop, quiet: arguments.quiet };
