@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use schemars::JsonSchema;
 use serde::Serialize;
 use ttb_scenario::Checked;
-use ttb_scenario::types::{Irregularity, ModelChoice, Scenario, Step, Structure};
+use ttb_scenario::types::{Irregularity, ModelChoice, Scenario, Space, Step, Structure};
 
 use crate::cli::{Isolate, Run};
 use crate::error::Error;
@@ -127,6 +127,9 @@ fn named(scenario: &Scenario) -> Vec<(&'static str, String)> {
     if let Irregularity::Measured { file, .. } = &scenario.irregularity {
         files.push(("profile", file.clone()));
     }
+    if let Some(space) = &mut scenario.space.clone() {
+        files.extend(space.files_mut().map(|(role, file)| (role, file.clone())));
+    }
     files
 }
 
@@ -151,6 +154,7 @@ pub fn resolved(checked: &Checked, folder: &Path) -> Scenario {
     if let Irregularity::Measured { file, .. } = &mut scenario.irregularity {
         whole(file);
     }
+    scenario.space.iter_mut().flat_map(Space::files_mut).for_each(|(_, file)| whole(file));
     let steps = checked.steps();
     (scenario.time.step, scenario.time.substeps) = (Step::Seconds(steps.step), Some(steps.substeps));
     // It belongs to a step that is left to the program.

@@ -89,3 +89,16 @@ pub enum IrregularityInSpace {
         ramp: Option<Ramp>,
     },
 }
+
+impl Space {
+    /// The files that it names, each with what it is read as.
+    pub fn files_mut(&mut self) -> impl Iterator<Item = (&'static str, &mut String)> {
+        let profile = match &mut self.irregularity {
+            Some(IrregularityInSpace::Measured { file, .. }) => Some(("profile in space", file)),
+            _ => None,
+        };
+        let wind = self.wind.as_mut().map(|wind| ("wind coefficients", &mut wind.coefficients));
+        let ground = self.ground_motion.as_mut().map(|ground| ("ground motion", &mut ground.file));
+        [profile, wind, ground].into_iter().flatten()
+    }
+}
