@@ -6,6 +6,7 @@ use std::ops::Range;
 use ttb_contract::names::{parse_support, support};
 use ttb_coupling::{Place, Stations, Watch};
 use ttb_scenario::Checked;
+use ttb_scenario::types::Direction;
 
 use super::assign::Assigned;
 use super::map::Map;
@@ -29,7 +30,7 @@ pub fn watch(
         .zip(supports)
         .map(|(k, x)| (place(support(k + 1, "").trim_end_matches('.').to_string(), false), *x))
         .collect();
-    for point in &checked.bridge.points {
+    for point in checked.bridge.points.iter().filter(|point| point.direction != Direction::Y) {
         let Some(x) = point.x.filter(|x| (ends[0]..=ends[1]).contains(x)) else { continue };
         missing.retain(|name| *name != point.name);
         places.push((place(format!("point[{}]", point.name), true), x));
@@ -47,8 +48,11 @@ pub fn watch(
 pub fn by_names(assigned: &Assigned, checked: &Checked, missing: &mut Vec<String>) -> Option<Watch> {
     let n = checked.bridge.supports.len();
     let number = |name: &String| parse_support(name).map(|(number, _)| number);
-    let ours = assigned.forces_in.names.iter().map(number).eq((1..=n).map(Some));
-    let both = assigned.motions_out.names.len() == 2 * n;
+    let forces = &assigned.forces_in.names;
+    // Component by component in space.
+    let whole = n > 0 && forces.len() >= n && forces.len().is_multiple_of(n);
+    let ours = whole && forces.iter().enumerate().all(|(i, name)| number(name) == Some(i % n + 1));
+    let both = assigned.motions_out.names.len() == 2 * forces.len();
     if ours && both { watch(&Map::default(), checked, &(0..n), None, missing) } else { None }
 }
 

@@ -46,12 +46,16 @@ impl Watch {
         Self { at, places, now: rest(), before: rest(), saved: rest(), h: 0.0, recorded: Vec::new() }
     }
 
-    /// The deck moves so at its own places: displacements, then velocities. Where nothing is recorded this costs nothing.
+    /// The deck moves so at its own places: positions, then rates, of both the vertical component first. Where nothing is
+    /// recorded this costs nothing.
     pub fn see(&mut self, own: &[f64]) {
         if self.recorded.is_empty() {
             return;
         }
-        self.at.motions(own, &mut self.now);
+        let (positions, rates) = own.split_at(own.len() / 2);
+        let (d, v) = self.now.split_at_mut(self.places.len());
+        self.at.motion(positions, d);
+        self.at.motion(rates, v);
     }
 
     /// A step of `h` seconds begins.
@@ -124,6 +128,10 @@ mod tests {
             watch.begin(0.5);
             watch.see(&[1.0, 5.0, v, v]);
         }
+        watch.read(&mut row);
+        assert_eq!(row, [3.0, (3.0 - 1.0) / 0.5]);
+        // In space other components follow the vertical one.
+        watch.see(&[1.0, 5.0, 7.0, 7.0, 8.0, 8.0, 2.0, 4.0, 6.0, 6.0, 9.0, 9.0]);
         watch.read(&mut row);
         assert_eq!(row, [3.0, (3.0 - 1.0) / 0.5]);
     }
