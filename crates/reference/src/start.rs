@@ -44,7 +44,8 @@ impl Whole {
         instance.enter_initialization(0.0).map_err(case)?;
         instance.set(&inputs, &motion).map_err(case)?;
         instance.exit_initialization().map_err(case)?;
-        let state = ttb_contract::Model::save(instance.model());
+        let state = ttb_contract::Model::save(instance.model()).plane();
+        let state = state.ok_or_else(|| case("the paper's other methods know plane runs only".to_string()))?;
         self.start.track = state.track.clone();
         self.start.cars = state.cars.clone();
         self.start.bridge.u = u.split_off(n);

@@ -17,6 +17,8 @@ use crate::parameters::{Parameter, Parameters};
 use crate::pre_roll::pre_roll;
 use crate::prepared::Prepared;
 use crate::profile::Irregularity;
+use crate::profile::rails::Rails;
+use crate::space::built::{Begin, SpaceBuilt};
 use crate::speed::Running;
 use crate::state::State;
 use crate::statics::equilibrium;
@@ -44,6 +46,8 @@ pub struct Built {
     deck: Vec<f64>,
     /// What the last macro step adds to its end.
     means: StepMeans,
+    /// Abscissae between which wheels ever are, m.
+    passage: [f64; 2],
 }
 
 impl Built {
@@ -96,7 +100,33 @@ impl Built {
             pool: Pool::default(),
             deck: vec![0.0; 2 * supports],
             means,
+            passage,
         })
+    }
+
+    /// The same train in space.
+    ///
+    /// # Errors
+    /// Data that it cannot run with, as a message.
+    pub fn in_space(self, spec: &TrainTrackSpec, parameters: &Parameters) -> Result<SpaceBuilt, String> {
+        let (Some(space), Some(lines)) = (&spec.space, &self.system.prepared.lines) else {
+            return Err("the data lack what a run in space has".into());
+        };
+        let get = |parameter| parameters.get(parameter);
+        let passage = self.passage;
+        let (scale, seed) = (get(Parameter::IrregularityScale), get(Parameter::IrregularitySeed) as u64);
+        let begin = Begin {
+            start: self.start,
+            pre_roll: self.pre_roll,
+            input_meaning: self.input_meaning,
+            friction: get(Parameter::Friction),
+            newmark: self.steps[0].newmark,
+            means: self.means,
+            wheels: self.system.wheels.clone(),
+            irregularity: Rails::new(spec, &space.irregularity, scale, passage, Some(seed)),
+        };
+        let lines = Arc::clone(lines);
+        SpaceBuilt::new(spec, space, self.system, lines, begin)
     }
 
     /// The track it runs on.

@@ -93,6 +93,13 @@ impl Contacts {
         &self.laws
     }
 
+    /// Other laws for the same axles.
+    pub fn replace(&mut self, laws: Vec<Law>) {
+        if laws.len() == self.laws.len() {
+            self.laws = laws;
+        }
+    }
+
     /// Solves δ + Y F(δ) = δ_free from the given `delta`; `compliance` is Y by rows. Writes `delta` and `forces`.
     ///
     /// # Errors

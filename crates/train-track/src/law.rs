@@ -43,6 +43,18 @@ impl Law {
         }
     }
 
+    /// Of two wheels with the Hertz constant `g` each, m/N^{2/3}, and the static load `load` of the axle, N.
+    pub fn of_wheels(g: f64, load: f64) -> Self {
+        let contact =
+            Contact { law: ContactLaw::Hertz, wheels_per_axle: 2, hertz_constant: Some(g), ..Contact::default() };
+        Self::new(&contact, load)
+    }
+
+    /// P0, N.
+    pub fn load(&self) -> f64 {
+        self.load
+    }
+
     /// Of a force alone, which presses with `load`, N, whatever the approach.
     pub fn dead(contact: &Contact, load: f64) -> Self {
         Self { dead: Some(load), static_approach: 0.0, ..Self::new(contact, load) }

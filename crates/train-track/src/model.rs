@@ -1,4 +1,5 @@
-//! The train–track subsystem as a [`Model`]: parameters and inputs by value reference around [`Built`].
+//! The train–track subsystem as a [`Model`]: parameters and inputs by value reference around [`Either`],
+//! a plane train or one in space.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -9,8 +10,10 @@ use ttb_scenario::limits::{MOST_BAYS, MOST_ELEMENTS_PER_BAY};
 use ttb_scenario::spec::TrainTrackSpec;
 
 use crate::built::Built;
+use crate::either::{Either, Saved};
 use crate::fleet::Fleet;
 use crate::interface::interface;
+use crate::outputs::plane_variables;
 use crate::parameters::{Parameter, Parameters};
 use crate::prepared::Prepared;
 use crate::state::State;
@@ -25,7 +28,9 @@ pub struct TrainTrack {
     interface: Interface,
     /// The track of the specification, where other runs share it.
     shared: Option<Arc<Prepared>>,
-    built: Option<Built>,
+    /// Outputs that a plane run has.
+    plane_outputs: usize,
+    built: Option<Either>,
 }
 
 fn error(message: impl Into<String>) -> ModelError {
@@ -50,7 +55,8 @@ impl TrainTrack {
             return Err(error("a support on the bridge lies beyond the track"));
         }
         Fleet::new(&spec.consist()).map_err(error)?;
-        Ok(Self { interface: interface(&spec), spec, shared: None, built: None })
+        let plane_outputs = plane_variables(&spec).len();
+        Ok(Self { interface: interface(&spec), spec, shared: None, plane_outputs, built: None })
     }
 
     /// The same on a track that other runs share: for sweeps over speeds, seeds and trains.
@@ -66,10 +72,10 @@ impl TrainTrack {
 
     /// The track that the present parameters run on; none before initialization.
     pub fn prepared(&self) -> Option<&Arc<Prepared>> {
-        self.built.as_ref().map(Built::prepared)
+        self.built.as_ref().map(Either::prepared)
     }
 
-    fn built(&mut self) -> Result<&mut Built, ModelError> {
+    fn built(&mut self) -> Result<&mut Either, ModelError> {
         self.built.as_mut().ok_or_else(|| error("the model is not initialized"))
     }
 
@@ -77,11 +83,11 @@ impl TrainTrack {
     ///
     /// # Errors
     /// One that is not finite, by name.
-    fn outputs(&self, values: &mut Values, t: f64) -> Result<(), ModelError> {
-        let Some(built) = &self.built else { return Ok(()) };
+    fn outputs(&mut self, values: &mut Values, t: f64) -> Result<(), ModelError> {
+        let Some(built) = &mut self.built else { return Ok(()) };
         let range = self.interface.outputs();
         let out = &mut values.all[range.clone()];
-        built.outputs(t, out);
+        built.outputs(t, self.plane_outputs, out);
         let Some(i) = not_finite(out) else { return Ok(()) };
         let name = &self.interface.variables()[range.start + i].name;
         Err(error(format!("{name} is {} at t = {t} s", out[i])))
@@ -102,7 +108,7 @@ impl TrainTrack {
 }
 
 impl Model for TrainTrack {
-    type State = Arc<State>;
+    type State = Saved;
 
     fn load(resources: &Path) -> Result<Self, ModelError> {
         let path = resources.join(RESOURCE);
@@ -131,7 +137,12 @@ impl Model for TrainTrack {
             damping: parameters.get(Parameter::FastenerDampingFactor),
         };
         let prepared = self.track(known, &spec, fasteners)?;
-        self.built = Some(Built::new(&spec, prepared, &parameters, start).map_err(error)?);
+        let plane = Built::new(&spec, prepared, &parameters, start).map_err(error)?;
+        self.built = Some(if spec.space.is_some() {
+            Either::Space(Box::new(plane.in_space(&spec, &parameters).map_err(error)?))
+        } else {
+            Either::Plane(Box::new(plane))
+        });
         Ok(())
     }
 
@@ -158,7 +169,7 @@ impl Model for TrainTrack {
     }
 
     fn save(&self) -> Self::State {
-        self.built.as_ref().map_or_else(|| Arc::new(State::rest(0, 0, 0, 0)), |built| Arc::clone(built.state()))
+        self.built.as_ref().map_or_else(|| Saved::Plane(Arc::new(State::rest(0, 0, 0, 0))), Either::save)
     }
 
     fn restore(&mut self, state: &Self::State) {
@@ -173,9 +184,7 @@ impl Model for TrainTrack {
 
     fn read_state(&self, bytes: &[u8]) -> Result<Self::State, ModelError> {
         let built = self.built.as_ref().ok_or_else(|| error("the model is not initialized"))?;
-        let mut state = State::clone(built.state());
-        state.read(bytes).map_err(error)?;
-        Ok(Arc::new(state))
+        built.read(bytes).map_err(error)
     }
 }
 

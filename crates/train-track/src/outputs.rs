@@ -197,6 +197,15 @@ impl View<'_> {
 
 /// The variables of all outputs.
 pub fn variables(spec: &TrainTrackSpec) -> Vec<Variable> {
+    let mut variables = plane_variables(spec);
+    if spec.space.is_some() {
+        variables.extend(crate::space::outputs::variables(spec));
+    }
+    variables
+}
+
+/// Those that a plane run has.
+pub fn plane_variables(spec: &TrainTrackSpec) -> Vec<Variable> {
     let mut variables = Vec::new();
     for group in &OUTPUTS {
         match group {

@@ -20,6 +20,8 @@ pub enum Parameter {
     Beta,
     LocalCompliance,
     InputMeaning,
+    /// Of a run in space only.
+    Friction,
 }
 
 /// What a held input means, enumeration parameter `input_meaning`.
@@ -49,7 +51,7 @@ struct Entry {
 const FACTOR: f64 = 1e6;
 
 /// All parameters, in the order of [`Parameter`].
-const PARAMETERS: [Entry; 12] = [
+const PARAMETERS: [Entry; 13] = [
     Entry {
         name: "speed",
         kind: Kind::Real { unit: "m/s" },
@@ -137,13 +139,24 @@ const PARAMETERS: [Entry; 12] = [
         start: |_| 1.0,
         allowed: Allowed::Within(1.0, INPUT_MEANING.len() as f64),
     },
+    Entry {
+        name: "friction",
+        kind: Kind::Real { unit: "1" },
+        text: "Friction coefficient of wheel and rail",
+        start: |spec| spec.space.as_ref().map_or(0.0, |space| space.contact.friction),
+        allowed: Allowed::Within(0.0, 1.0),
+    },
 ];
+
+/// Parameters that a plane run has, too.
+const PLANE: usize = 12;
 
 /// The variables of all parameters.
 pub fn variables(spec: &TrainTrackSpec) -> Vec<Variable> {
     let variable =
         |entry: &Entry| Variable::parameter_of(entry.name, entry.kind.clone(), (entry.start)(spec), entry.text);
-    PARAMETERS.iter().map(variable).collect()
+    let count = if spec.space.is_some() { PARAMETERS.len() } else { PLANE };
+    PARAMETERS.iter().take(count).map(variable).collect()
 }
 
 /// Values of all parameters that may stand together.
@@ -205,6 +218,7 @@ mod tests {
             (Parameter::StepSize, "step_size"),
             (Parameter::Beta, "beta"),
             (Parameter::InputMeaning, "input_meaning"),
+            (Parameter::Friction, "friction"),
         ] {
             assert_eq!(PARAMETERS[parameter as usize].name, name);
         }

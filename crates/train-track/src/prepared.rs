@@ -10,6 +10,7 @@ use ttb_scenario::spec::TrainTrackSpec;
 use ttb_scenario::types::TrackType;
 
 use crate::compliance::RailCompliance;
+use crate::space::prepared::Lines;
 use crate::track::{FastenerFactors, Track};
 
 /// Step sizes kept factorised; the oldest but the first goes when another comes.
@@ -22,6 +23,8 @@ pub struct Prepared {
     pub track: Track,
     /// K_t, for rest.
     pub statics: BandFactor,
+    /// What it has in space.
+    pub lines: Option<Arc<Lines>>,
     /// What all of it follows from.
     source: Source,
     steps: Mutex<Vec<(Newmark, Arc<TrackFactors>)>>,
@@ -70,7 +73,11 @@ impl Prepared {
     pub fn new(spec: &TrainTrackSpec) -> Result<Self, String> {
         let prepared = Self::with(spec, FastenerFactors::default())?;
         let step = spec.step / spec.substeps as f64;
-        prepared.factors(&Newmark::new(spec.newmark.gamma, spec.newmark.beta, step))?;
+        let newmark = Newmark::new(spec.newmark.gamma, spec.newmark.beta, step);
+        prepared.factors(&newmark)?;
+        if let Some(lines) = &prepared.lines {
+            lines.factors(&newmark)?;
+        }
         Ok(prepared)
     }
 
@@ -81,12 +88,18 @@ impl Prepared {
     pub fn with(spec: &TrainTrackSpec, fasteners: FastenerFactors) -> Result<Self, String> {
         let track = Track::new(spec, fasteners);
         let statics = track.effective(0.0, 0.0).factorise().map_err(|e| format!("track at rest: {e}"))?;
-        Ok(Self { track, statics, source: Source::of(spec, fasteners), steps: Mutex::default() })
+        let lines = spec.space.as_ref().map(|space| Lines::new(spec, space, fasteners).map(Arc::new)).transpose()?;
+        Ok(Self { track, statics, lines, source: Source::of(spec, fasteners), steps: Mutex::default() })
     }
 
     /// Whether this is the track of a specification with these fasteners; cars, speed, irregularity and time do not count.
     pub fn fits(&self, spec: &TrainTrackSpec, fasteners: FastenerFactors) -> bool {
-        self.source == Source::of(spec, fasteners)
+        let lines = match (&self.lines, &spec.space) {
+            (None, None) => true,
+            (Some(lines), Some(space)) => lines.fits(space),
+            _ => false,
+        };
+        lines && self.source == Source::of(spec, fasteners)
     }
 
     /// The factors of exactly this step size, made where nobody has asked for it before.

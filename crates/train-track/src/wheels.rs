@@ -17,8 +17,10 @@ pub struct Wheels {
     pub irregularity: Irregularity,
     /// Points of the rail where they were found last.
     pub points: Vec<RailPoint>,
-    /// r there, m.
+    /// r there, m, with `raised`.
     pub roughness: Vec<f64>,
+    /// What the contact of every axle is away from its place at D = 0, m: g(D) of a run in space, else 0.
+    pub raised: Vec<f64>,
 }
 
 impl Wheels {
@@ -26,7 +28,7 @@ impl Wheels {
     pub fn new(offsets: Vec<f64>, front: f64, running: Running, irregularity: Irregularity) -> Self {
         let n = offsets.len();
         let (points, roughness) = (vec![RailPoint::default(); n], vec![0.0; n]);
-        Self { offsets, front, running, irregularity, points, roughness }
+        Self { offsets, front, running, irregularity, points, roughness, raised: vec![0.0; n] }
     }
 
     /// Abscissa of an axle at time `t` after the start, m.
@@ -42,7 +44,7 @@ impl Wheels {
         for axle in 0..self.points.len() {
             let x = self.position(axle, t);
             self.points[axle] = on_rail(track, axle, x, t)?;
-            self.roughness[axle] = self.irregularity.at(x);
+            self.roughness[axle] = self.irregularity.at(x) + self.raised[axle];
         }
         Ok(())
     }

@@ -1,6 +1,7 @@
 //! Cars against docs/theory.md 15, and the state of the subsystem.
 
 mod common;
+mod space;
 
 use common::{spec, started, value};
 use ttb_contract::{Instance, Model};

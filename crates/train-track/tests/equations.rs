@@ -57,7 +57,8 @@ fn largest(r: impl IntoIterator<Item = f64>, scale: f64) -> f64 {
 
 /// δ = z_w − N u − r − c_loc F of every axle at time t.
 fn contacts_hold(spec: &TrainTrackSpec, instance: &Instance<TrainTrack>, t: f64) {
-    let (state, track) = (instance.model().save(), &instance.model().prepared().unwrap().track);
+    let (state, track) =
+        (instance.model().save().plane().expect("a plane run"), &instance.model().prepared().unwrap().track);
     let Profile::Waves { waves, .. } = &spec.irregularity else { panic!("waves") };
     let rough = |x: f64| -> f64 {
         waves.iter().map(|w| w.amplitude * (std::f64::consts::TAU * x / w.wavelength + w.phase).sin()).sum()
@@ -79,7 +80,8 @@ fn contacts_hold(spec: &TrainTrackSpec, instance: &Instance<TrainTrack>, t: f64)
 
 /// M q̈ + C q̇ + K q = w − Bᵀ F of every car, and the same of the track under wheels and deck.
 fn motions_hold(spec: &TrainTrackSpec, instance: &Instance<TrainTrack>, t: f64) {
-    let (state, track) = (instance.model().save(), &instance.model().prepared().unwrap().track);
+    let (state, track) =
+        (instance.model().save().plane().expect("a plane run"), &instance.model().prepared().unwrap().track);
     for (c, data) in spec.cars.iter().enumerate() {
         let car = Car::new(data);
         let of = |values: &[f64]| ttb_train_track::car::Vector10::from_column_slice(&values[c * DOFS..(c + 1) * DOFS]);
@@ -135,7 +137,7 @@ fn outputs_are_what_the_state_holds() {
     let spec = wavy();
     let mut instance = initialized(TrainTrack::new(spec).unwrap());
     (0..10).for_each(|n| step(&mut instance, n));
-    let state = instance.model().save();
+    let state = instance.model().save().plane().expect("a plane run");
     for car in 0..2 {
         let (u, a) = (&state.cars.u[car * DOFS..], &state.cars.a[car * DOFS..]);
         let names = [
@@ -189,7 +191,7 @@ fn the_pre_roll_begins_a_trains_length_earlier() {
         let mut spec = wavy();
         spec.cars.truncate(1);
         (spec.cars[0].length, spec.pre_roll) = (length, pre_roll);
-        initialized(TrainTrack::new(spec).unwrap()).model().save()
+        initialized(TrainTrack::new(spec).unwrap()).model().save().plane().expect("a plane run")
     };
     assert_eq!(start(25.0, 60.0), start(45.0, 40.0));
     assert_ne!(start(25.0, 60.0), start(25.0, 40.0));

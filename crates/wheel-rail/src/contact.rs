@@ -26,6 +26,21 @@ pub struct Settings {
     pub creep: Creep,
 }
 
+/// What the tread has at one D.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Tread {
+    /// g, m.
+    pub distance: f64,
+    /// g′.
+    pub slope: f64,
+    /// u_c, m.
+    pub across: f64,
+    /// r, m.
+    pub radius: f64,
+    /// G, m/N^{2/3}.
+    pub hertz: f64,
+}
+
 /// The elastic values of one node: G, c₁₁, c₂₂, c₂₃, a₁, b₁.
 type Elastic = [f64; 6];
 
@@ -76,6 +91,18 @@ impl Contact {
     #[must_use]
     pub fn geometry(&self) -> &Geometry {
         &self.geometry
+    }
+
+    /// The tread at D, for rest.
+    #[must_use]
+    pub fn tread(&self, d: f64) -> Tread {
+        self.column(Region::Tread, d).map_or_else(Tread::default, |column| Tread {
+            distance: column.distance[0],
+            slope: column.distance[1],
+            across: column.across[0],
+            radius: column.radius[0],
+            hertz: column.hertz[0],
+        })
     }
 
     /// Another friction coefficient.

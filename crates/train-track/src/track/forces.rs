@@ -54,6 +54,16 @@ impl Track {
         self.on_bridge.iter().map(|support| (support * self.elements_per_bay, self.base_dof(*support)))
     }
 
+    /// f += k d + c ḋ of the base springs beside the bridge, where the ground moves by `d` m at `v` m/s.
+    pub fn add_ground(&self, d: f64, v: f64, f: &mut [f64]) {
+        let force = self.base.stiffness * d + self.base.damping * v;
+        for support in 0..=self.elements / self.elements_per_bay {
+            if self.on_bridge.binary_search(&support).is_err() {
+                f[self.base_dof(support)] += force;
+            }
+        }
+    }
+
     /// k d + c ḋ of the base springs on the bridge; `deck` is [d…, ḋ…].
     pub fn deck_forces(&self, deck: &[f64], forces: &mut [f64]) {
         let (d, v) = deck.split_at(self.on_bridge.len());

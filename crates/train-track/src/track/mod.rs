@@ -182,6 +182,11 @@ impl Track {
         Some(RailPoint { element, row: self.beam.shape(xi, l), local_compliance })
     }
 
+    /// Where an abscissa lies within an element, 0 to 1.
+    pub fn part_of_element(&self, x: f64, element: usize) -> f64 {
+        (x - self.from) / self.element_length - element as f64
+    }
+
     /// Rail deflection N u at a point, without the local part.
     pub fn deflection(&self, point: &RailPoint, u: &[f64]) -> f64 {
         let dofs = self.element_dofs(point.element);

@@ -1,0 +1,311 @@
+//! A train in space on its track, ready to run: set-up and macro steps around [`SpaceSystem::step`].
+
+use std::sync::Arc;
+
+use ttb_dynamics::newmark::Newmark;
+use ttb_dynamics::pool::Pool;
+use ttb_scenario::limits::MOST_SUBSTEPS;
+use ttb_scenario::spec::{SpaceSpec, TrainTrackSpec};
+use ttb_wheel_rail::contact::Contact;
+
+use super::axle::{FIRST_RAIL, Lever, PORTS};
+use super::car::{AXLES, Car, DOFS};
+use super::newton::CarPorts;
+use super::outputs;
+use super::pre_roll::pre_roll;
+use super::prepared::Lines;
+use super::spec::settings;
+use super::state::SpaceState;
+use super::statics::{PLANE, rest};
+use super::system::{SpaceStep, SpaceSystem};
+use crate::coupled::TrainTrackSystem;
+use crate::fleet::Reading;
+use crate::outputs::View;
+use crate::profile::rails::Rails;
+use crate::state::State;
+use crate::step_means::StepMeans;
+use crate::wheels::Wheels;
+
+/// Steps within this of a factorised one are that one.
+const SAME_STEP: f64 = 1e-9;
+/// Step sizes kept factorised.
+const STEP_SIZES: usize = 4;
+
+/// A train on its track.
+pub struct SpaceBuilt {
+    system: SpaceSystem,
+    steps: Vec<SpaceStep>,
+    start: f64,
+    pre_roll: f64,
+    input_meaning: f64,
+    /// The plane train on the plane track: for rest, and for the outputs that plane runs have, too.
+    plane: TrainTrackSystem,
+    plane_state: State,
+    readings: Vec<Reading>,
+    state: Arc<SpaceState>,
+    pool: Pool<SpaceState>,
+    deck: Vec<f64>,
+    means: StepMeans,
+    /// Mean forces of all supports: blocks of F_z, F_y, M_x.
+    mean: Vec<f64>,
+}
+
+/// What a run begins with, besides its specification.
+pub struct Begin {
+    /// Start of the run, s.
+    pub start: f64,
+    /// Distance of the pre-roll with the train's length, m.
+    pub pre_roll: f64,
+    /// Parameter `input_meaning`.
+    pub input_meaning: f64,
+    /// Parameter `friction`.
+    pub friction: f64,
+    /// Newmark's constants of the nominal step.
+    pub newmark: Newmark,
+    /// Points of the rail that are monitored, without supports.
+    pub means: StepMeans,
+    /// Where the axles are, with the level.
+    pub wheels: Wheels,
+    /// Irregularity of both rails.
+    pub irregularity: Rails,
+}
+
+impl SpaceBuilt {
+    /// Joins the plane train and what it has in space.
+    ///
+    /// # Errors
+    /// Data that this train cannot run with, as a message.
+    pub fn new(
+        spec: &TrainTrackSpec,
+        space: &SpaceSpec,
+        plane: TrainTrackSystem,
+        lines: Arc<Lines>,
+        begin: Begin,
+    ) -> Result<Self, String> {
+        let (mut kinds, mut of_kind): (Vec<Car>, Vec<usize>) = (Vec::new(), Vec::new());
+        let mut known: Vec<usize> = Vec::new();
+        for (c, data) in space.cars.iter().enumerate() {
+            match known.iter().position(|other| space.cars[*other] == *data) {
+                Some(kind) => of_kind.push(kind),
+                None => {
+                    kinds.push(Car::new(data).map_err(|e| format!("car {}: {e}", c + 1))?);
+                    known.push(c);
+                    of_kind.push(kinds.len() - 1);
+                }
+            }
+        }
+        if AXLES * of_kind.len() != spec.axle_count() {
+            return Err("a train in space is made of cars with four axles".into());
+        }
+        let contacts: Result<Vec<Arc<Contact>>, String> = kinds
+            .iter()
+            .map(|kind| {
+                let settings = settings(&space.contact, kind.radius, begin.friction);
+                Contact::new(lines.geometry.clone(), &settings).map(Arc::new)
+            })
+            .collect();
+        let contacts = contacts?;
+        let ports = of_kind.iter().map(|kind| {
+            let car = &kinds[*kind];
+            let lever = Lever { radius: car.radius, head: space.track.head_height, rail: space.track.half_distance };
+            let elements = car.elements.iter().map(|(_, element)| element.clone()).collect();
+            CarPorts::new(Arc::clone(&contacts[*kind]), lever, elements)
+        });
+        let ports: Vec<_> = ports.collect();
+        let prepared = Arc::clone(&plane.prepared);
+        let supports = prepared.track.bridge_supports();
+        let system =
+            SpaceSystem::new(prepared, lines, kinds, of_kind, ports, begin.wheels, begin.irregularity, space.clone());
+        let steps = vec![system.matrices(begin.newmark)?];
+        let plane_state = State::rest(plane.track().order(), plane.fleet.order(), plane.fleet.axles(), supports);
+        Ok(Self {
+            state: Arc::new(system.rest()),
+            steps,
+            start: begin.start,
+            pre_roll: begin.pre_roll,
+            input_meaning: begin.input_meaning,
+            readings: plane.fleet.readings().concat(),
+            plane,
+            plane_state,
+            pool: Pool::default(),
+            deck: vec![0.0; 6 * supports],
+            means: begin.means,
+            mean: vec![0.0; 3 * supports],
+            system,
+        })
+    }
+
+    /// The system.
+    pub fn system(&self) -> &SpaceSystem {
+        &self.system
+    }
+
+    /// Start of the run, s.
+    pub fn start(&self) -> f64 {
+        self.start
+    }
+
+    /// The state at the end of the last step.
+    pub fn state(&self) -> &Arc<SpaceState> {
+        &self.state
+    }
+
+    /// Puts back a saved state.
+    pub fn restore(&mut self, state: &Arc<SpaceState>) {
+        self.state = Arc::clone(state);
+    }
+
+    /// Static equilibrium for the deck motion (velocities ignored).
+    ///
+    /// # Errors
+    /// There is none, or it was not found.
+    pub fn equilibrium(&mut self, deck: &[f64]) -> Result<(), String> {
+        let mut state = self.system.rest();
+        rest(&mut self.system, &mut self.plane, deck, &mut self.plane_state, &mut state)?;
+        self.replace(state);
+        Ok(())
+    }
+
+    /// From static equilibrium to the state of the start.
+    ///
+    /// # Errors
+    /// The pre-roll cannot be done.
+    pub fn roll_in(&mut self) -> Result<(), String> {
+        if self.pre_roll > 0.0 {
+            let mut state = SpaceState::clone(&self.state);
+            pre_roll(&mut self.system, &self.steps[0], self.pre_roll, &mut state)?;
+            self.replace(state);
+        }
+        Ok(())
+    }
+
+    fn replace(&mut self, state: SpaceState) {
+        self.mean.copy_from_slice(&state.supports);
+        self.state = Arc::new(state);
+        self.means.begin();
+        let n = self.means.mean.len();
+        self.means.mean.copy_from_slice(&self.mean[..n]);
+    }
+
+    fn matrices(&mut self, h: f64) -> Result<usize, String> {
+        let same = |m: &SpaceStep| (m.newmark.h - h).abs() <= SAME_STEP * h;
+        if let Some(i) = self.steps.iter().position(same) {
+            return Ok(i);
+        }
+        let nominal = self.steps[0].newmark;
+        let matrices = self.system.matrices(Newmark::new(nominal.gamma, nominal.beta, h))?;
+        if self.steps.len() == STEP_SIZES {
+            self.steps.remove(1);
+        }
+        self.steps.push(matrices);
+        Ok(self.steps.len() - 1)
+    }
+
+    /// One macro step from `t` to `t + h`: as many equal sub-steps as it takes to be no longer than the nominal step.
+    ///
+    /// # Errors
+    /// A sub-step cannot be done; the state is then that of the last one that could.
+    pub fn step(&mut self, inputs: &[f64], rates: Option<&[f64]>, t: f64, h: f64) -> Result<(), String> {
+        let nominal = self.steps[0].newmark.h;
+        let parts = (h / nominal * (1.0 - SAME_STEP)).ceil().max(1.0);
+        if parts > MOST_SUBSTEPS as f64 {
+            return Err(format!("a step of {h} s has more than {MOST_SUBSTEPS} parts of step_size = {nominal} s"));
+        }
+        let matrices = self.matrices(h / parts)?;
+        let t = t - self.start;
+        self.means.begin();
+        self.mean.fill(0.0);
+        for part in 1..=parts as u64 {
+            let tau = h * (part as f64 / parts);
+            self.deck_at(inputs, rates, tau);
+            let mut buffer = self.pool.take(|| SpaceState::clone(&self.state));
+            let Some(new) = Arc::get_mut(&mut buffer) else { return Err("a state buffer is in use".into()) };
+            self.system.step(&self.steps[matrices], &self.state, new, &self.deck, t + tau)?;
+            let old = Arc::clone(&self.state);
+            self.add(&old, &buffer, parts);
+            self.pool.give(&buffer);
+            self.state = buffer;
+        }
+        Ok(())
+    }
+
+    /// Takes one of `parts` sub-steps into means, work and peaks.
+    fn add(&mut self, old: &SpaceState, new: &SpaceState, parts: f64) {
+        let n = self.mean.len() / 3;
+        for (k, mean) in self.mean.iter_mut().enumerate() {
+            let force = 0.5 * (old.supports[k] + new.supports[k]);
+            let at = k / n * 2 * n + k % n;
+            *mean += force / parts;
+            self.means.work += force * (new.deck[at] - old.deck[at]);
+        }
+        self.means.mean.copy_from_slice(&self.mean[..n]);
+        for (peak, point) in self.means.peaks.iter_mut().zip(&self.means.points) {
+            let a = self.system.prepared.track.deflection(point, &new.track.a);
+            if a.abs() > peak.abs() {
+                *peak = a;
+            }
+        }
+    }
+
+    fn deck_at(&mut self, inputs: &[f64], rates: Option<&[f64]>, tau: f64) {
+        let (end_of_last, n) = (&self.state.deck, self.mean.len() / 3);
+        for i in 0..inputs.len() {
+            self.deck[i] = match rates {
+                Some(rates) => inputs[i] + rates[i] * tau,
+                None if self.input_meaning == 2.0 => 2.0 * inputs[i] - end_of_last[i],
+                None if self.input_meaning == 1.0 && (i / n).is_multiple_of(2) => inputs[i] + tau * inputs[i + n],
+                None => inputs[i],
+            };
+        }
+    }
+
+    /// Fills in all outputs at time `t`, s; `plane` of them are those of a plane run.
+    pub fn outputs(&mut self, t: f64, plane: usize, out: &mut [f64]) {
+        self.see_plane();
+        let (first, rest) = out.split_at_mut(plane);
+        View {
+            system: &self.plane,
+            readings: &self.readings,
+            state: &self.plane_state,
+            means: &self.means,
+            t: t - self.start,
+        }
+        .write(first);
+        outputs::write(&self.system, &self.state, &self.mean, rest);
+    }
+
+    /// The state as a plane run would see it.
+    fn see_plane(&mut self) {
+        let (state, plane) = (&self.state, &mut self.plane_state);
+        for (to, from) in [
+            (&mut plane.track.u, &state.track.u),
+            (&mut plane.track.v, &state.track.v),
+            (&mut plane.track.a, &state.track.a),
+        ] {
+            to.copy_from_slice(from);
+        }
+        let n = self.mean.len() / 3;
+        plane.supports.copy_from_slice(&state.supports[..n]);
+        plane.deck.copy_from_slice(&state.deck[..2 * n]);
+        for car in 0..self.system.of_kind.len() {
+            for (to, from) in PLANE {
+                let (to, from) = (car * PLANE.len() + to, car * DOFS + from);
+                plane.cars.u[to] = state.cars.u[from];
+                plane.cars.v[to] = state.cars.v[from];
+                plane.cars.a[to] = state.cars.a[from];
+            }
+        }
+        self.plane.wheels.points.copy_from_slice(&self.system.wheels.points);
+        self.plane.wheels.roughness.copy_from_slice(&self.system.wheels.roughness);
+        let mut at = 0;
+        for (car, ports) in self.system.ports.iter().enumerate() {
+            for axle in 0..AXLES {
+                let (i, port) = (car * AXLES + axle, at + axle * PORTS);
+                plane.forces[i] = state.ports[0][port + FIRST_RAIL];
+                let rail = state.ports[1][port + FIRST_RAIL];
+                plane.delta[i] = state.ports[1][port + 1] - rail - self.system.wheels.roughness[i];
+            }
+            at += ports.n;
+        }
+    }
+}
