@@ -3,6 +3,7 @@
 use std::cell::RefCell;
 use std::collections::HashSet;
 
+use ttb_contract::Component;
 use ttb_fmi::description::{ModelDescription, ScalarVariable, VariableType};
 use ttb_fmi2::probe::Instantiation;
 
@@ -105,12 +106,15 @@ impl Plan {
     }
 }
 
-/// Start value and amplitude, by unit: 10 kN, 0.1 mm, 1 mm/s, or one.
+/// Start value and amplitude, by unit: 10 kN, 10 kN m, 0.1 mm, 1 mm/s, 0.1 mrad, 1 mrad/s, or one.
 fn swing(v: &ScalarVariable, d: &ModelDescription) -> (f64, f64) {
     let start = v.start.as_ref().and_then(|text| text.trim().parse().ok()).unwrap_or(0.0);
     let unit = v.unit.as_ref().and_then(|unit| d.units.get(unit));
     let amplitude = match unit.map(|unit| (unit.powers, unit.factor)) {
         Some(([1, 1, -2, ..], factor)) => 1e4 / factor,
+        Some(([1, 2, -2, ..], factor)) if v.name.ends_with(Component::Roll.force()) => 1e4 / factor,
+        Some(([0, 0, 0, 0, 0, 0, 0, 1], factor)) => 1e-4 / factor,
+        Some(([0, 0, -1, 0, 0, 0, 0, 1], factor)) => 1e-3 / factor,
         Some(([0, 1, 0, ..], factor)) => 1e-4 / factor,
         Some(([0, 1, -1, ..], factor)) => 1e-3 / factor,
         _ => 1.0,
