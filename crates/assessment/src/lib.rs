@@ -17,6 +17,7 @@ pub mod percentile;
 pub mod reduce;
 pub mod run;
 pub mod sample;
+pub mod statics;
 pub mod verdict;
 
 pub use criterion::{Criteria, Criterion};
@@ -26,7 +27,8 @@ pub use filter::{Butterworth, Filter, Phase, Weighting};
 pub use judge::judge;
 pub use peak::{Peak, PlaceKind, Statistic};
 pub use percentile::percentile;
-pub use reduce::{Histories, Reduced, reduce};
+pub use reduce::{Histories, LossAt, Reduced, reduce};
 pub use run::{Basis, Loads, Missing, Rail, Results, Run};
 pub use sample::{Sample, Seeded};
+pub use statics::{LoadCase, Statics};
 pub use verdict::{Status, Verdict, Verdicts};

@@ -22,8 +22,16 @@ pub mod quantity {
     pub const DECK_ROTATION: &str = "deck.rotation";
     /// Vertical offset of the deck's end against its neighbour, m.
     pub const DECK_END_OFFSET: &str = "deck.end-offset";
-    /// Reaction of a bearing, upwards positive, N.
+    /// Displacement of the deck under Φ times a static load model, m.
+    pub const DEFLECTION_LM71: &str = "deck.deflection-lm71";
+    /// Span over the displacement under Φ·LM71 of one track, α = 1.
+    pub const SPAN_OVER_DEFLECTION: &str = "deck.span-over-deflection";
+    /// (1 + φ′_dyn + φ″/2) times a train's effect over that of Φ·LM71 or Φ·SW/0.
+    pub const DESIGN_EFFECT: &str = "deck.design-effect";
+    /// Force of the train on a bearing, N; positive where it presses.
     pub const BEARING_REACTION: &str = "bearing.reaction";
+    /// The same with that of the dead load, N.
+    pub const TOTAL_REACTION: &str = "bearing.total-reaction";
     /// Contact force of a wheelset, N.
     pub const WHEEL_FORCE: &str = "wheel.force";
     /// Wheel load Q, half of the contact force of a wheelset, N.

@@ -8,6 +8,7 @@ use crate::amplification::phi_dyn;
 use crate::filter::RAW;
 use crate::peak::quantity::{DECK_DISPLACEMENT, PHI_DYN};
 use crate::peak::{Peak, Statistic};
+use crate::statics::Statics;
 
 /// What loads the bridge.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
@@ -80,6 +81,8 @@ pub struct Results {
     pub rows: Vec<(usize, Peak)>,
     /// Why a value that a criterion asks for could not be made.
     pub missing: Vec<Missing>,
+    /// What static load models do to the bridge.
+    pub statics: Statics,
 }
 
 impl Results {

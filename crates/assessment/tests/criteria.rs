@@ -1,5 +1,8 @@
 //! Limits as data: bundled files, overriding, refusals, verdicts.
 
+#[path = "criteria/statics.rs"]
+mod statics;
+
 use serde_json::json;
 use ttb_assessment::criterion::{DEFAULT, names, text};
 use ttb_assessment::{

@@ -12,7 +12,9 @@ pub(super) struct Shape {
 
 const WHEN: Shape = Shape { keys: &["track", "speed_to_km_h", "comfort_level"], inner: &[] };
 const CASE: Shape = Shape { keys: &["when", "limit"], inner: &[("when", &WHEN), ("limit", &LIMIT)] };
-const LIMIT: Shape = Shape { keys: &["span_over", "static_plus", "at_most"], inner: &[] };
+const CHART: Shape = Shape { keys: &["spans_m", "speeds_km_h", "values"], inner: &[] };
+const LIMIT: Shape =
+    Shape { keys: &["span_over", "static_plus", "at_most", "chart", "as_given", "user"], inner: &[("chart", &CHART)] };
 const GRADE: Shape = Shape { keys: &["to", "name"], inner: &[] };
 const CUT_OFF: Shape =
     Shape { keys: &["max_of", "times_f1", "frequency_of_mode"], inner: &[("max_of", &CUT_OFF_PART)] };
@@ -42,7 +44,21 @@ const CRITERION: Shape = Shape {
     inner: &[("filter", &FILTER), ("cases", &CASE), ("grades", &GRADE)],
 };
 const FACTS: Shape = Shape {
-    keys: &["n0_hz", "third_mode_hz", "modes_from", "track", "spans_m", "l_phi_m", "comfort_level"],
+    keys: &[
+        "n0_hz",
+        "third_mode_hz",
+        "modes_from",
+        "track",
+        "spans_m",
+        "l_phi_m",
+        "continuous",
+        "maintenance",
+        "alpha",
+        "line_speed_km_h",
+        "overhang_m",
+        "dead_reactions_kn",
+        "comfort_level",
+    ],
     inner: &[],
 };
 pub(super) const FILE: Shape = Shape {

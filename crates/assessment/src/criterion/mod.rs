@@ -7,6 +7,7 @@
 //! ```
 
 mod bundled;
+mod chart;
 mod keys;
 mod problem;
 mod read;
@@ -15,9 +16,10 @@ mod rule;
 use serde::{Deserialize, Serialize};
 
 pub use bundled::{DEFAULT, names, text};
+pub use chart::Chart;
 pub use problem::LimitsProblem;
 pub use read::Criteria;
-pub use rule::{CutOff, FilterRule, Limit, ResolvedFilter};
+pub use rule::{CutOff, FilterRule, Limit, Place, ResolvedFilter};
 
 use crate::facts::Facts;
 use crate::peak::Statistic;

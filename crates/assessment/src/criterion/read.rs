@@ -9,7 +9,7 @@ use super::bundled;
 use super::keys::{FILE, nearest};
 use super::problem::LimitsProblem;
 use super::{Criterion, FilterRule};
-use crate::facts::Facts;
+use crate::facts::{Facts, WORDS};
 use crate::filter::Filter;
 use crate::peak::Statistic;
 
@@ -131,6 +131,7 @@ fn add(
         problems.push(problem(name, "$", "must be an object with `criteria`", ""));
     }
     if let Some(given) = file.get("facts") {
+        words(name, given, problems);
         match serde_json::from_value::<Facts>(without_comments(given)) {
             Ok(given) => *facts = facts.overruled_by(&given),
             Err(error) => problems.push(problem(name, "$.facts", &error.to_string(), "")),
@@ -181,6 +182,33 @@ fn add(
     }
 }
 
+/// Words and numbers of facts that cannot be.
+fn words(name: &str, given: &Value, problems: &mut Vec<LimitsProblem>) {
+    for (key, known) in WORDS {
+        if let Some(word) = given.get(key).and_then(Value::as_str).filter(|word| !known.contains(word)) {
+            let rule = format!("must be one of {}", known.join(", "));
+            let told = problem(name, &format!("$.facts.{key}"), &rule, format!("`{word}`"));
+            problems.push(LimitsProblem { suggestion: nearest(word, known.iter().copied()), ..told });
+        }
+    }
+    for key in ["n0_hz", "third_mode_hz", "l_phi_m", "alpha", "line_speed_km_h", "overhang_m"] {
+        let found = given.get(key).and_then(Value::as_f64);
+        let least = if key == "overhang_m" { -f64::MIN_POSITIVE } else { 0.0 };
+        if let Some(value) = found.filter(|value| *value <= least) {
+            problems.push(problem(name, &format!("$.facts.{key}"), "must be positive", value.to_string()));
+        }
+    }
+    let spans = given.get("spans_m").and_then(Value::as_array);
+    if spans.is_some_and(|spans| spans.is_empty() || spans.iter().any(|span| span.as_f64().is_some_and(|l| l <= 0.0))) {
+        problems.push(problem(
+            name,
+            "$.facts.spans_m",
+            "must be lengths of spans, each positive",
+            given["spans_m"].to_string(),
+        ));
+    }
+}
+
 fn without_comments(value: &Value) -> Value {
     match value {
         Value::Object(object) => {
@@ -195,7 +223,12 @@ fn without_comments(value: &Value) -> Value {
 /// Numbers that cannot be.
 fn check(criterion: &Criterion, file: &str, problems: &mut Vec<LimitsProblem>) {
     let path = format!("$.criteria[{}]", criterion.id);
-    for case in &criterion.cases {
+    for (i, case) in criterion.cases.iter().enumerate() {
+        if let super::Limit::Chart { chart, .. } = &case.limit
+            && let Err(rule) = chart.check()
+        {
+            problems.push(problem(file, &format!("{path}.cases[{i}].limit.chart"), &rule, ""));
+        }
         let positive = match case.limit {
             super::Limit::Span { span_over } => span_over,
             _ => 1.0,

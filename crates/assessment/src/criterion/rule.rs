@@ -8,6 +8,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::chart::{Chart, of_comfort};
 use crate::facts::Facts;
 use crate::filter::{Filter, Phase, Weighting};
 
@@ -110,13 +111,38 @@ impl FilterRule {
     }
 }
 
+/// What the limit of a value may depend on beside the bridge.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Place {
+    /// Abscissa, m from the begin of the deck.
+    pub x: Option<f64>,
+    /// Speed of the run, or of the line, km/h.
+    pub speed_km_h: Option<f64>,
+    /// The value of the train standing.
+    pub static_value: Option<f64>,
+}
+
 /// A limit by a rule.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(untagged)]
 pub enum Limit {
     /// In the criterion's unit.
     Given(f64),
-    /// The span over a number; of several spans the shortest.
+    /// A limit that the code has, and the user must give: what to give.
+    User {
+        /// For people.
+        user: String,
+    },
+    /// A table over span and speed.
+    Chart {
+        /// The table.
+        chart: Chart,
+        /// Whether the values apply as they are. Otherwise they are those of EN 1990 figure A2.3 (three simple spans or more,
+        /// very good comfort), and the rules of A2.4.4.3.2 for other bridges and levels are applied.
+        #[serde(default)]
+        as_given: bool,
+    },
+    /// The span over a number; of several spans that in which the value is, else the shortest.
     Span {
         /// The number.
         span_over: f64,
@@ -131,19 +157,23 @@ pub enum Limit {
 }
 
 impl Limit {
-    /// With this bridge's numbers and a row's static value.
+    /// With this bridge's numbers and those of a value.
     ///
     /// # Errors
     /// What would have to be known.
-    pub fn resolve(&self, facts: &Facts, static_value: Option<f64>) -> Result<f64, String> {
+    pub fn resolve(&self, facts: &Facts, place: &Place) -> Result<f64, String> {
+        let span = || facts.span_at(place.x).ok_or("the spans are not known: give `spans_m` among the facts");
         match self {
             Self::Given(limit) => Ok(*limit),
-            Self::Span { span_over } => {
-                let span = facts.shortest_span().ok_or("the spans are not known: give `spans_m` among the facts")?;
-                Ok(span / span_over)
+            Self::User { user } => Err(user.clone()),
+            Self::Span { span_over } => Ok(span()? / span_over),
+            Self::Chart { chart, as_given } => {
+                let speed = place.speed_km_h.ok_or("the speed is not known: give `line_speed_km_h` among the facts")?;
+                let value = chart.at(span()?, speed)?;
+                Ok(if *as_given { value } else { value * of_comfort(facts) })
             }
             Self::Static { static_plus, at_most } => {
-                let own = static_value.ok_or("the static value is not known")?;
+                let own = place.static_value.ok_or("the static value is not known")?;
                 Ok(at_most.min(own + static_plus))
             }
         }

@@ -1,4 +1,4 @@
-//! A point of the deck.
+//! A point of the deck, and the worst of several.
 
 use super::{Asked, Place, PointHistory, Record, Reduced, extreme};
 use crate::filter::RAW;
@@ -31,4 +31,25 @@ pub(super) fn reduce(point: &PointHistory, record: Record, asked: &Asked, out: &
             out.peaks.push(Peak { x: point.x, time: Some(record.time[at]), ..row });
         }
     }
+}
+
+/// Of every quantity, filter and statistic the worst of all points on the deck, where it is.
+pub(super) fn worst(rows: &[Peak]) -> Vec<Peak> {
+    let mut worst: Vec<Peak> = Vec::new();
+    for row in rows.iter().filter(|row| row.x.is_some()) {
+        let same = |kept: &&mut Peak| {
+            kept.quantity == row.quantity && kept.filter == row.filter && kept.statistic == row.statistic
+        };
+        let own = Peak { place_kind: PlaceKind::Deck, place: "".into(), ..row.clone() };
+        match worst.iter_mut().find(same) {
+            None => worst.push(own),
+            Some(kept) => {
+                let least = row.statistic == Statistic::Min;
+                if (least && row.value < kept.value) || (!least && row.value > kept.value) {
+                    *kept = own;
+                }
+            }
+        }
+    }
+    worst
 }

@@ -1,7 +1,8 @@
 //! Histories of one run reduced to [`Peak`] rows.
 //!
 //! ```text
-//! deck points    ẅ behind every filter that is asked for; w, M raw, with their static values left to others
+//! deck points    ẅ behind every filter that is asked for; w, M raw, with their static values left to others; of points without
+//!                a name the worst along the deck
 //! wheelsets      (Q₀ − Q)/Q₀ and Q behind every filter, Q = F/2; losses of contact raw, on the bridge and in all
 //! cars           z̈ at the body's centre and over both bogies: z̈ ± φ̈ L/2; weighted; Sperling; N_MV
 //! ```
@@ -10,9 +11,12 @@
 
 mod body;
 mod deck;
+mod derivative;
 mod wheel;
 
 use std::borrow::Cow;
+
+use serde::{Deserialize, Serialize};
 
 use crate::criterion::Criteria;
 use crate::error::SignalError;
@@ -21,6 +25,8 @@ use crate::filter::{Butterworth, Filter, Phase, Weighting};
 use crate::peak::{Peak, PlaceKind, Statistic};
 use crate::run::Missing;
 
+pub use derivative::acceleration;
+
 /// Histories of one run, one value at every internal step.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Histories {
@@ -28,6 +34,8 @@ pub struct Histories {
     pub time: Vec<f64>,
     /// Points of the deck.
     pub points: Vec<PointHistory>,
+    /// Further points of the deck, without names: of all points together the worst along the deck stays.
+    pub deck: Vec<PointHistory>,
     /// Wheelsets from the front.
     pub axles: Vec<AxleHistory>,
     /// Cars from the front.
@@ -84,6 +92,21 @@ pub struct Reduced {
     pub peaks: Vec<Peak>,
     /// What could not be made.
     pub missing: Vec<Missing>,
+    /// Every loss of contact.
+    pub losses: Vec<LossAt>,
+}
+
+/// A loss of contact: when, how long, and from where to where on the track.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct LossAt {
+    /// The wheelset, from 1 at the front.
+    pub axle: usize,
+    /// Begin, s.
+    pub time_s: f64,
+    /// Duration, s.
+    pub seconds: f64,
+    /// Where it begins and ends, m on the track; none if positions are not observed.
+    pub x_m: Option<[f64; 2]>,
 }
 
 /// Reduces what `criteria` ask for, and beside it what an engineer compares: filters of usual parameters in both directions.
@@ -106,6 +129,12 @@ pub fn reduce(histories: &Histories, criteria: &Criteria, facts: &Facts) -> Redu
         return out;
     };
     histories.points.iter().for_each(|point| deck::reduce(point, record, &asked, &mut out));
+    if !histories.deck.is_empty() {
+        let mut along = out.clone();
+        histories.deck.iter().for_each(|point| deck::reduce(point, record, &asked, &mut along));
+        out.missing.clone_from(&along.missing);
+        out.peaks.splice(0..0, deck::worst(&along.peaks));
+    }
     for axle in &histories.axles {
         wheel::reduce(axle, histories, record, &asked, &mut out);
     }

@@ -1,6 +1,6 @@
 //! A wheelset: unloading, wheel load, losses of contact.
 
-use super::{Asked, AxleHistory, Histories, Place, Record, Reduced, extreme};
+use super::{Asked, AxleHistory, Histories, LossAt, Place, Record, Reduced, extreme};
 use crate::filter::{Filter, RAW};
 use crate::index::{Loss, losses};
 use crate::peak::quantity::{CONTACT_LOSS, CONTACT_LOSS_ON_BRIDGE, CONTACT_LOSS_WAY, WHEEL_LOAD, WHEEL_UNLOADING};
@@ -65,6 +65,13 @@ fn every(signal: &[f64], way: f64) -> Vec<f64> {
 /// Losses of contact: all, those that begin on the bridge, and the longest way.
 fn contact(axle: &AxleHistory, histories: &Histories, record: Record, way: f64, out: &mut Reduced) {
     let all = losses(&axle.force);
+    let at = |i: usize| axle.position.get(i.min(axle.position.len().saturating_sub(1))).copied();
+    out.losses.extend(all.iter().map(|loss| LossAt {
+        axle: axle.number,
+        time_s: record.time[loss.first],
+        seconds: loss.seconds(record.rate),
+        x_m: at(loss.first).zip(at(loss.first + loss.count)).map(|(a, b)| [a, b]),
+    }));
     let on_bridge = |loss: &&Loss| {
         histories.bridge.zip(axle.position.get(loss.first)).is_some_and(|([a, b], x)| (a..=b).contains(x))
     };

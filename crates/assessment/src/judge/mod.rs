@@ -5,23 +5,31 @@
 //!   └─ each with the limit of its own speed ──► the row of the greatest utilisation governs
 //! permissible speed: the highest v so that every speed up to v keeps the limit, all trains, variants and seeds
 //! ```
+//!
+//! Static load models are a basis of their own: their values belong to no run, and their speed is that of the line.
+
+mod blank;
 
 use std::collections::BTreeSet;
 
-use crate::criterion::{BasisWord, Criteria, Criterion, ResolvedFilter, Sense};
+use crate::criterion::{BasisWord, Criteria, Criterion, Place, ResolvedFilter, Sense};
 use crate::facts::Facts;
 use crate::filter::RAW;
 use crate::peak::Peak;
-use crate::run::{Basis, Results, Run};
+use crate::run::{Basis, Missing, Results, Run};
+use crate::statics::{Derived, Loaded, derive};
 use crate::verdict::{Status, VERSION, Verdict, Verdicts};
 
 /// Judges results; worst verdicts first.
 pub fn judge(criteria: &Criteria, facts: &Facts, results: &Results) -> Verdicts {
     let facts = facts.overruled_by(&criteria.facts);
     let bases: BTreeSet<Basis> = results.runs.iter().map(|run| run.basis).collect();
+    let derived = derive(&facts, results);
+    let fastest = results.runs.iter().filter_map(|run| run.speed_km_h).reduce(f64::max);
+    let line_speed = facts.line_speed_km_h.or(fastest);
     let mut verdicts = Vec::new();
     for criterion in &criteria.all {
-        verdicts.extend(Judge { criterion, facts: &facts, results }.all(&bases));
+        verdicts.extend(Judge { criterion, facts: &facts, results, derived: &derived, line_speed }.all(&bases));
     }
     // Stable: equal ones stay in the order of the files.
     verdicts.sort_by(|a: &Verdict, b: &Verdict| {
@@ -36,11 +44,24 @@ struct Judge<'a> {
     criterion: &'a Criterion,
     facts: &'a Facts,
     results: &'a Results,
+    derived: &'a Derived,
+    /// km/h.
+    line_speed: Option<f64>,
 }
+
+/// What a value belongs to.
+#[derive(Clone, Copy)]
+enum By<'a> {
+    Run(&'a Run),
+    Load(&'a Loaded),
+}
+
+/// A value and what it belongs to.
+type Row<'a> = (By<'a>, &'a Peak);
 
 /// A row with its limit.
 struct Judged<'a> {
-    run: &'a Run,
+    by: By<'a>,
     peak: &'a Peak,
     limit: Option<f64>,
     utilisation: Option<f64>,
@@ -55,12 +76,14 @@ impl<'a> Judge<'a> {
         let Some(filter) = self.criterion.filter.resolve(self.facts) else {
             return vec![self.not_judged("the frequencies of the bridge are not known".into(), None)];
         };
-        let found: Vec<Verdict> = bases.iter().filter_map(|basis| self.on(*basis, filter)).collect();
-        let own = found.iter().any(|verdict| verdict.in_basis);
+        let mut found: Vec<Verdict> = bases.iter().filter_map(|basis| self.on(Some(*basis), filter)).collect();
+        let in_basis = found.iter().any(|verdict| verdict.in_basis);
+        found.extend(self.on(None, filter));
+        // What load models decide needs no run.
+        let own = in_basis || found.iter().any(|verdict| verdict.basis.is_none());
         if found.is_empty() {
             return vec![self.not_judged(self.why_missing(filter), Some(filter))];
         }
-        let mut found = found;
         if !own {
             let said = |word: &BasisWord| match word {
                 BasisWord::Forces => "moving forces",
@@ -78,17 +101,22 @@ impl<'a> Judge<'a> {
         found
     }
 
-    /// On one basis; `None` without rows.
-    fn on(&self, basis: Basis, filter: ResolvedFilter) -> Option<Verdict> {
+    /// On one basis, `None` being the load models; `None` without rows.
+    fn on(&self, basis: Option<Basis>, filter: ResolvedFilter) -> Option<Verdict> {
         let label = filter.filter.label();
-        let rows: Vec<(&Run, &Peak)> = self.rows(&label).filter(|(run, _)| run.basis == basis).collect();
+        let rows: Vec<Row> = match basis {
+            Some(basis) => {
+                self.rows(&label).filter(|(run, _)| run.basis == basis).map(|(r, p)| (By::Run(r), p)).collect()
+            }
+            None => self.of_loads(&label).collect(),
+        };
         let mut judged = Vec::with_capacity(rows.len());
-        for (run, peak) in &rows {
-            match self.limit(run, peak) {
-                Ok(limit) => judged.push(self.judged(run, peak, limit)),
+        for (by, peak) in &rows {
+            match self.limit(*by, peak) {
+                Ok(limit) => judged.push(self.judged(*by, peak, limit)),
                 Err(reason) => {
                     let mut verdict = self.not_judged(reason, Some(filter));
-                    self.governed_by(&mut verdict, self.worst(&rows)?, basis);
+                    self.governed_by(&mut verdict, self.worst(&rows)?);
                     return Some(verdict);
                 }
             }
@@ -103,37 +131,49 @@ impl<'a> Judge<'a> {
         verdict.status = status;
         verdict.limit = governing.limit;
         verdict.utilisation = governing.utilisation;
-        verdict.runs = judged.iter().map(|one| one.run.run_id.as_str()).collect::<BTreeSet<_>>().len();
-        self.governed_by(&mut verdict, (governing.run, governing.peak), basis);
-        if governing.limit.is_some() {
-            (verdict.permissible_speed_km_h, verdict.first_exceeded_km_h) = permissible(&judged);
-        }
+        verdict.runs = judged.iter().filter_map(Judged::run_id).collect::<BTreeSet<_>>().len();
         if filter.assumed {
             verdict.reason =
                 Some("the frequencies of the bridge are not known: the cut-off of the filter is assumed".into());
         }
+        self.governed_by(&mut verdict, (governing.by, governing.peak));
+        if governing.limit.is_some() {
+            (verdict.permissible_speed_km_h, verdict.first_exceeded_km_h) = permissible(&judged);
+        }
         Some(verdict)
     }
 
-    fn rows<'b>(&'b self, label: &'b str) -> impl Iterator<Item = (&'a Run, &'a Peak)> + 'b {
-        let of = move |peak: &Peak| {
-            peak.quantity == self.criterion.quantity
-                && peak.statistic == self.criterion.statistic
-                && peak.filter == label
-        };
-        let results = self.results;
-        results.rows.iter().filter(move |(_, peak)| of(peak)).map(move |(run, peak)| (&results.runs[*run], peak))
+    fn is_asked(&self, peak: &Peak, label: &str) -> bool {
+        peak.quantity == self.criterion.quantity && peak.statistic == self.criterion.statistic && peak.filter == label
     }
 
-    fn limit(&self, run: &Run, peak: &Peak) -> Result<Option<f64>, String> {
-        match self.criterion.case(self.facts, run.speed_km_h)? {
-            Some(case) => case.limit.resolve(self.facts, peak.static_value).map(Some),
+    /// Values of runs, derived ones behind the others.
+    fn rows<'b>(&'b self, label: &'b str) -> impl Iterator<Item = (&'a Run, &'a Peak)> + 'b {
+        let (results, derived) = (self.results, self.derived);
+        let all = results.rows.iter().chain(&derived.of_runs);
+        all.filter(move |(_, peak)| self.is_asked(peak, label)).map(move |(run, peak)| (&results.runs[*run], peak))
+    }
+
+    fn of_loads<'b>(&'b self, label: &'b str) -> impl Iterator<Item = Row<'a>> + 'b {
+        let derived = self.derived;
+        let asked = derived.of_loads.iter().filter(move |loaded| self.is_asked(&loaded.peak, label));
+        asked.map(|loaded| (By::Load(loaded), &loaded.peak))
+    }
+
+    fn limit(&self, by: By, peak: &Peak) -> Result<Option<f64>, String> {
+        let speed_km_h = match by {
+            By::Run(run) => run.speed_km_h,
+            By::Load(_) => self.line_speed,
+        };
+        let place = Place { x: peak.x, speed_km_h, static_value: peak.static_value };
+        match self.criterion.case(self.facts, speed_km_h)? {
+            Some(case) => case.limit.resolve(self.facts, &place).map(Some),
             None if self.criterion.cases.is_empty() => Ok(None),
             None => Err("no limit is known for this track, speed or level of comfort".into()),
         }
     }
 
-    fn judged<'b>(&self, run: &'b Run, peak: &'b Peak, limit: Option<f64>) -> Judged<'b> {
+    fn judged<'b>(&self, by: By<'b>, peak: &'b Peak, limit: Option<f64>) -> Judged<'b> {
         let value = peak.value;
         let kept = limit.is_none_or(|limit| match self.criterion.sense {
             Sense::AtMost => value <= limit,
@@ -144,7 +184,7 @@ impl<'a> Judge<'a> {
             (Some(limit), Sense::AtLeast) if value > 0.0 && limit > 0.0 => Some(limit / value),
             _ => None,
         };
-        Judged { run, peak, limit, utilisation, kept }
+        Judged { by, peak, limit, utilisation, kept }
     }
 
     /// Whether `a` is worse than `b`: by utilisation, else by value.
@@ -162,40 +202,52 @@ impl<'a> Judge<'a> {
         }
     }
 
-    fn worst(&self, rows: &[(&'a Run, &'a Peak)]) -> Option<(&'a Run, &'a Peak)> {
+    fn worst(&self, rows: &[Row<'a>]) -> Option<Row<'a>> {
         rows.iter().copied().reduce(|worst, one| if self.is_beyond(one.1.value, worst.1.value) { one } else { worst })
     }
 
-    fn governed_by(&self, verdict: &mut Verdict, (run, peak): (&Run, &Peak), basis: Basis) {
+    fn governed_by(&self, verdict: &mut Verdict, (by, peak): Row) {
         verdict.value = Some(peak.value);
         verdict.unit.clone_from(&self.criterion.unit);
+        verdict.grade = self.criterion.grade(peak.value).map(str::to_string);
+        verdict.place = Some(format!("{} {}", peak.place_kind, peak.place).trim().to_string());
+        verdict.x_m = peak.x;
+        verdict.time_s = peak.time;
+        let run = match by {
+            By::Run(run) => run,
+            By::Load(loaded) => {
+                verdict.train = Some(loaded.load.clone());
+                verdict.reason = Some(match verdict.reason.take() {
+                    Some(reason) => format!("{reason}; {}", loaded.note),
+                    None => loaded.note.clone(),
+                });
+                return;
+            }
+        };
         verdict.raw = self
             .rows(RAW)
             .filter(|(other, _)| other.run_id == run.run_id)
             .map(|(_, raw)| raw.value)
             .reduce(|worst, one| if self.is_beyond(one, worst) { one } else { worst });
-        verdict.grade = self.criterion.grade(peak.value).map(str::to_string);
-        verdict.basis = Some(basis);
-        verdict.in_basis = self.criterion.is_based_on(basis);
+        verdict.basis = Some(run.basis);
+        verdict.in_basis = self.criterion.is_based_on(run.basis);
         verdict.run_id = Some(run.run_id.clone());
         verdict.train = Some(run.train.clone());
         verdict.speed_km_h = run.speed_km_h;
         verdict.variant = Some(run.variant.clone()).filter(|name| !name.is_empty());
         verdict.seed = Some(run.seed.clone()).filter(|name| !name.is_empty());
-        verdict.place = Some(format!("{} {}", peak.place_kind, peak.place).trim().to_string());
-        verdict.x_m = peak.x;
-        verdict.time_s = peak.time;
     }
 
     /// Why there is no row.
     fn why_missing(&self, filter: ResolvedFilter) -> String {
         let (quantity, label) = (&self.criterion.quantity, filter.filter.label());
         let statistic = self.criterion.statistic.name();
-        let told = self.results.missing.iter().find(|one| {
+        let is = |one: &&Missing| {
             one.quantity == *quantity
                 && one.filter == label
                 && one.statistic.as_ref().is_none_or(|missing| missing == statistic)
-        });
+        };
+        let told = self.results.missing.iter().chain(&self.derived.missing).find(is);
         if let Some(missing) = told {
             return missing.reason.clone();
         }
@@ -213,55 +265,28 @@ impl<'a> Judge<'a> {
         let have = same.into_iter().collect::<Vec<_>>().join(", ");
         format!("no run gives {quantity}, {}, behind {label}; there is {have}{needs}", self.criterion.statistic)
     }
+}
 
-    fn not_judged(&self, reason: String, filter: Option<ResolvedFilter>) -> Verdict {
-        Verdict { status: Status::NotJudged, reason: Some(reason), ..self.empty(filter) }
+impl Judged<'_> {
+    fn run_id(&self) -> Option<&str> {
+        match self.by {
+            By::Run(run) => Some(run.run_id.as_str()),
+            By::Load(_) => None,
+        }
     }
 
-    fn empty(&self, filter: Option<ResolvedFilter>) -> Verdict {
-        let criterion = self.criterion.clone();
-        Verdict {
-            criterion: criterion.id,
-            title: criterion.title,
-            status: Status::NotJudged,
-            value: None,
-            limit: None,
-            utilisation: None,
-            unit: criterion.unit,
-            raw: None,
-            quantity: criterion.quantity,
-            statistic: criterion.statistic.name().into(),
-            filter: filter.map_or_else(String::new, |filter| filter.filter.label()),
-            filter_assumed: filter.is_some_and(|filter| filter.assumed),
-            grade: None,
-            basis: None,
-            in_basis: true,
-            runs: 0,
-            run_id: None,
-            train: None,
-            speed_km_h: None,
-            variant: None,
-            seed: None,
-            place: None,
-            x_m: None,
-            time_s: None,
-            permissible_speed_km_h: None,
-            first_exceeded_km_h: None,
-            clause: criterion.clause,
-            edition: criterion.edition,
-            verified: criterion.verified,
-            source: criterion.source,
-            limits: criterion.file,
-            reason: None,
-            note: criterion.note,
+    fn speed(&self) -> Option<f64> {
+        match self.by {
+            By::Run(run) => run.speed_km_h,
+            By::Load(_) => None,
         }
     }
 }
 
 /// The permissible speed, and the first that is not.
 fn permissible(judged: &[Judged]) -> (Option<f64>, Option<f64>) {
-    let exceeded = judged.iter().filter(|one| !one.kept).filter_map(|one| one.run.speed_km_h).reduce(f64::min);
+    let exceeded = judged.iter().filter(|one| !one.kept).filter_map(Judged::speed).reduce(f64::min);
     let below = |speed: &f64| exceeded.is_none_or(|exceeded| *speed < exceeded);
-    let kept = judged.iter().filter_map(|one| one.run.speed_km_h).filter(below).reduce(f64::max);
+    let kept = judged.iter().filter_map(Judged::speed).filter(below).reduce(f64::max);
     (kept, exceeded)
 }
