@@ -1,7 +1,7 @@
 //! Histories of the few runs that are kept whole: `history/<run_id>.csv`.
 
 use std::fs::{self, File};
-use std::io::{BufWriter, Write};
+use std::io::{BufWriter, Read, Write};
 use std::path::{Path, PathBuf};
 
 use crate::error::Error;
@@ -66,7 +66,11 @@ impl History {
         place(campaign, id).is_file()
     }
 
-    fn parse(file: File) -> std::io::Result<Self> {
+    /// What [`History::write`] has written, from wherever it is.
+    ///
+    /// # Errors
+    /// It is no such table.
+    pub fn parse(file: impl Read) -> std::io::Result<Self> {
         let mut rows = csv::Reader::from_reader(file);
         let mut columns: Vec<(String, String, Vec<f64>)> = Vec::new();
         for name in rows.headers()? {
