@@ -1,10 +1,15 @@
 //! Keeps the histories that criteria judge during a run, every step, whichever FMUs take it.
+//!
+//! Of a bridge of ours the deck is looked at under the track's supports, at those nearest to 24 equal parts of every span: their
+//! motions are coupled anyway, and nothing is added to the FMU.
 
+use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 
-use ttb_assessment::reduce::{AxleHistory, CarHistory, Histories, PointHistory};
+use ttb_assessment::reduce::{AxleHistory, CarHistory, Histories, PointHistory, acceleration};
+use ttb_campaign::points::deck_points;
 use ttb_scenario::Checked;
-use ttb_scenario::spec::Vehicle;
+use ttb_scenario::spec::{BridgeSpec, Vehicle};
 use ttb_session::column::Column;
 use ttb_session::{Begin, Moment, Observer, Of, Quantity, RunError};
 
@@ -15,6 +20,23 @@ use crate::results::scene::Scene;
 pub struct Watch {
     time: Vec<f64>,
     kept: Vec<Kept>,
+    /// Numbers of supports that are points of the deck, and their abscissas, m.
+    deck: BTreeMap<usize, f64>,
+}
+
+/// Supports whose motions are read.
+pub struct Supports(Vec<usize>);
+
+impl Supports {
+    /// Whether a column is a motion of one of them.
+    pub fn contains(&self, column: &Column) -> bool {
+        let is = |number| self.0.binary_search(number).is_ok();
+        matches!(&column.of, Of::Support(number) if is(number)) && is_motion(column)
+    }
+}
+
+fn is_motion(column: &Column) -> bool {
+    column.instance.is_none() && matches!(column.quantity, Quantity::Displacement | Quantity::Velocity)
 }
 
 struct Kept {
@@ -23,9 +45,10 @@ struct Kept {
     values: Vec<f64>,
 }
 
-fn is_judged(column: &Column) -> bool {
+fn is_judged(column: &Column, deck: &BTreeMap<usize, f64>) -> bool {
     use Quantity as Q;
     match column.of {
+        Of::Support(number) => deck.contains_key(&number) && is_motion(column),
         Of::Point(_) => matches!(column.quantity, Q::Displacement | Q::Acceleration | Q::Moment),
         Of::Wheel(_) => matches!(column.quantity, Q::ContactForce | Q::Position),
         Of::Car(_) => matches!(column.quantity, Q::Acceleration | Q::PitchAcceleration),
@@ -35,7 +58,7 @@ fn is_judged(column: &Column) -> bool {
 
 impl Observer for Watch {
     fn start(&mut self, begin: &Begin) -> Result<(), RunError> {
-        let judged = begin.columns.iter().enumerate().filter(|(_, column)| is_judged(column));
+        let judged = begin.columns.iter().enumerate().filter(|(_, column)| is_judged(column, &self.deck));
         self.kept = judged.map(|(at, column)| Kept { at, column: column.clone(), values: Vec::new() }).collect();
         Ok(())
     }
@@ -50,10 +73,24 @@ impl Observer for Watch {
 }
 
 impl Watch {
+    /// For a scenario with its own bridge; of any other the named points alone are looked at.
+    pub fn of(checked: Option<&Checked>) -> Self {
+        Self { deck: checked.map(|checked| on_deck(&checked.bridge)).unwrap_or_default(), ..Self::default() }
+    }
+
+    /// The supports whose motions it needs.
+    pub fn supports(&self) -> Supports {
+        Supports(self.deck.keys().copied().collect())
+    }
+
     /// The histories; what a scenario knows of its train, its deck and its points is told to them. Of wheelsets without a
     /// scenario the force of the first row is the static one.
     pub fn histories(self, checked: Option<&Checked>, scene: &Scene) -> Histories {
         let mut histories = Histories { time: self.time, bridge: scene.deck, ..Histories::default() };
+        let h = match histories.time[..] {
+            [first, .., last] => (last - first) / (histories.time.len() - 1) as f64,
+            _ => f64::NAN,
+        };
         let vehicles = checked.map(|checked| checked.train_track.consist()).unwrap_or_default();
         let loads: Vec<f64> = vehicles.iter().flat_map(Vehicle::axles).map(|[load, _]| load).collect();
         // Outputs count the vehicles that have a body.
@@ -76,6 +113,15 @@ impl Watch {
                         Quantity::Displacement => point.displacement = values,
                         Quantity::Acceleration => point.acceleration = values,
                         _ => point.moment = values,
+                    }
+                }
+                Of::Support(number) => {
+                    let x = self.deck.get(number).copied();
+                    let point =
+                        of(&mut histories.deck, |point| point.x == x, || PointHistory { x, ..PointHistory::default() });
+                    match column.quantity {
+                        Quantity::Displacement => point.displacement = values,
+                        _ => point.acceleration = acceleration(&values, h),
                     }
                 }
                 Of::Wheel(number) => {
@@ -113,6 +159,16 @@ impl Watch {
         }
         histories
     }
+}
+
+/// Supports nearest to equal parts of every span, and where they are.
+fn on_deck(bridge: &BridgeSpec) -> BTreeMap<usize, f64> {
+    let nearest = |x: f64| {
+        let places = bridge.supports.iter().enumerate();
+        let (at, place) = places.min_by(|a, b| (a.1 - x).abs().total_cmp(&(b.1 - x).abs()))?;
+        Some((at + 1, *place))
+    };
+    deck_points(&bridge.structure).into_iter().filter_map(nearest).collect()
 }
 
 /// Whether a point carries track: by its abscissa; a node of a model may be anywhere. Of a foreign bridge every point counts.

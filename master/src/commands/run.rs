@@ -10,7 +10,7 @@ use ttb_coupling::probe::Probe;
 use ttb_fmi::temporary::Temporary;
 use ttb_scenario::Checked;
 use ttb_session::observe::{Iterations, IterationsCsv, Peaks, Progress, ResultsCsv, Timed};
-use ttb_session::{Coupled, Ended, Plan, drive};
+use ttb_session::{Column, Coupled, Ended, Plan, drive};
 
 use super::output::{Opening, Output};
 use super::progress::progress_bar;
@@ -180,17 +180,24 @@ fn run_connected(
     let axis = job.case.axis();
     let [results, iterations] = ["results.csv", "iterations.csv"].map(|name| output.folder().join(name));
     let mut results = ResultsCsv::new(Rows::of(&results), &results.display().to_string(), job.case.every)
-        .with(&job.case.columns, job.case.csv);
+        .with(&job.case.columns, job.case.csv)
+        .allowing({
+            let case = job.case.clone();
+            move |column| case.keeps(column)
+        });
     let mut iterations =
         IterationsCsv::new(Rows::of(&iterations), &iterations.display().to_string()).with(job.case.csv);
-    let mut log = Log::new(job);
+    let ours = judged.checked.filter(|_| arguments.bridge.is_empty());
+    let mut log = Log::new(job, Watch::of(ours));
     let bar = progress_bar(axis.steps(), arguments.quiet);
     let mut tell = |n| bar.set_position(n);
     let mut progress = Progress::new(&mut tell, stop.flag());
     let clock = || begin.elapsed().as_secs_f64();
-    let plan = Plan { axis, wanted: &|column| job.case.keeps(column), clock: &clock };
+    let deck = log.watch.supports();
+    let wanted = |column: &Column| job.case.keeps(column) || deck.contains(column);
+    let plan = Plan { axis, wanted: &wanted, clock: &clock };
     let Connected { train_track, bridge, coupling, parts, probe, rules, warnings, .. } = &mut *connected;
-    let own = judged.checked.filter(|_| arguments.bridge.is_empty()).map(|checked| &checked.bridge.structure);
+    let own = ours.map(|checked| &checked.bridge.structure);
     let repeats = job.case.settings.max_iterations > 1;
     let (name, groups) = (train_track.name().to_string(), bridge.ranges());
     let mut look = |found: &Probe| {
@@ -251,17 +258,9 @@ struct Log {
 }
 
 impl Log {
-    fn new(job: &Job) -> Self {
+    fn new(job: &Job, watch: Watch) -> Self {
         let (counted, peaks, timed) = (Iterations::default(), Peaks::between(job.case.peaks), Timed::default());
-        Self {
-            counted,
-            peaks,
-            plot: Plot::new(job.scene.clone()),
-            watch: Watch::default(),
-            timed,
-            reached: 0.0,
-            ended: 0.0,
-        }
+        Self { counted, peaks, plot: Plot::new(job.scene.clone()), watch, timed, reached: 0.0, ended: 0.0 }
     }
 
     fn seconds(&self) -> Seconds {
