@@ -2,13 +2,13 @@
 
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
-use ttb_assessment::{Facts, Missing, Results};
+use ttb_assessment::{Facts, LossAt, Missing, Results};
 use ttb_campaign::{Limits, facts};
 use ttb_scenario::Checked;
 
 use crate::error::Error;
 use crate::files::Files;
-use crate::tables;
+use crate::{statics, tables};
 
 /// Name of the file beside the tables of one run.
 pub const FILE: &str = "assessment.json";
@@ -24,6 +24,9 @@ pub struct Assessment {
     pub limits: Vec<String>,
     /// What could not be made.
     pub missing: Vec<Missing>,
+    /// Every loss of contact.
+    #[serde(default)]
+    pub losses: Vec<LossAt>,
 }
 
 /// The plan of a sweep.
@@ -77,6 +80,13 @@ impl<'a> Opened<'a> {
             },
         };
         results.missing.clone_from(&assessment.missing);
+        results.statics = match &checked {
+            Some(_) if is_foreign(summary.as_ref()) => {
+                statics::unknown("the bridge is a foreign FMU, whose influence lines are not known")
+            }
+            Some(checked) => statics::of(checked),
+            None => statics::unknown("the scenario of these results is not known"),
+        };
         if let Some(list) = summary.as_ref().and_then(|summary| summary["warnings"].as_array()) {
             warnings.extend(list.iter().filter_map(Value::as_str).map(str::to_string));
         }
@@ -89,6 +99,12 @@ impl<'a> Opened<'a> {
         let texts: Vec<[String; 2]> = serde_json::from_value(self.plan.as_ref()?.get("limits")?.clone()).ok()?;
         (!texts.is_empty()).then_some(Limits { texts })
     }
+}
+
+/// Whether a foreign FMU stands for the scenario's bridge.
+pub fn is_foreign(summary: Option<&Value>) -> bool {
+    let inputs = summary.and_then(|summary| summary["inputs"].as_array());
+    inputs.is_some_and(|inputs| inputs.iter().any(|one| one["role"] == "bridge"))
 }
 
 /// A JSON file, if it is there.

@@ -11,8 +11,11 @@ pub mod error;
 pub mod files;
 pub mod folder;
 pub mod page;
+pub mod statics;
 pub mod tables;
+pub mod verified;
 
 pub use error::Error;
 pub use files::{Files, Memory};
 pub use folder::{Assessment, Opened};
+pub use verified::Verified;

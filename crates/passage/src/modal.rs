@@ -89,6 +89,8 @@ pub struct ModalBridge {
     lines: Lines,
     spans: Vec<[f64; 2]>,
     remarks: Vec<String>,
+    /// Its steps are this share of the usual ones.
+    share: f64,
 }
 
 /// Frequencies from which modes are left out are above these, Hz, times the margin.
@@ -214,7 +216,14 @@ impl ModalBridge {
             lines: lines.scaled(pads[0], &own),
             spans: source.spans().to_vec(),
             remarks: Vec::new(),
+            share: 1.0,
         })
+    }
+
+    /// The same bridge in steps that are a share of the usual ones, above 0 and at most 1, to see what the step does.
+    #[must_use]
+    pub fn in_steps(self, share: f64) -> Self {
+        Self { share, ..self }
     }
 
     /// Its modes, lowest first; without those that no force on the deck excites.
@@ -262,7 +271,7 @@ impl ModalBridge {
     /// Longest step, s: a twentieth of the shortest period, or of 1/30 s.
     #[must_use]
     pub fn longest_step(&self) -> f64 {
-        1.0 / (SAMPLES * self.frequencies().fold(FREQUENCY, f64::max))
+        self.share / (SAMPLES * self.frequencies().fold(FREQUENCY, f64::max))
     }
 
     /// Distance of the places where modal forces are tabulated, m.

@@ -28,6 +28,12 @@ pub struct Input<'a> {
     pub passages: Vec<Passage>,
     /// How the governing value changes with what was chosen.
     pub changes: Vec<Change>,
+    /// What can be done for more of these lines; empty: nothing.
+    pub more_changes: String,
+    /// Losses of contact of one run.
+    pub losses: Option<Losses>,
+    /// Comfort with and without the bridge.
+    pub comfort: Vec<Comfort>,
     /// Commands that make all this again.
     pub commands: Vec<String>,
     /// Files of the folder: name, and what it holds or its hash.
@@ -86,6 +92,8 @@ pub struct Train {
     pub signature: Vec<[f64; 2]>,
     /// Wavelengths of its repeating distances, m, the strongest first.
     pub spacings: Vec<f64>,
+    /// Where its first axle is at time 0, m from the begin of the bridge.
+    pub starts_at: f64,
     /// Where the data come from.
     pub source: String,
 }
@@ -163,4 +171,32 @@ pub struct Change {
     pub after: f64,
     /// Unit of both.
     pub unit: String,
+}
+
+/// Losses of contact of one run over the way.
+#[derive(Clone, Debug)]
+pub struct Losses {
+    /// Run.
+    pub run_id: String,
+    /// The train and its speed.
+    pub title: String,
+    /// Where each begins on the track, m, and how long it lasts, s.
+    pub bars: Vec<[f64; 2]>,
+    /// Where the bridge begins and ends on the track, m.
+    pub bridge: Option<[f64; 2]>,
+}
+
+/// A value of a car body over the bridge, and of the same train on the same rail over a deck that does not move.
+#[derive(Clone, Debug)]
+pub struct Comfort {
+    /// Quantity, car and place in it.
+    pub what: String,
+    /// Label of the filter, and the statistic.
+    pub how: String,
+    /// Unit.
+    pub unit: String,
+    /// Over the bridge.
+    pub with: f64,
+    /// Over the deck that does not move.
+    pub without: f64,
 }

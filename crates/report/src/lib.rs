@@ -13,7 +13,9 @@ pub mod input;
 pub mod number;
 mod section;
 
-pub use input::{Bridge, Change, Envelope, History, Input, ModeShape, Passage, Property, SpaceTime, Train};
+pub use input::{
+    Bridge, Change, Comfort, Envelope, History, Input, Losses, ModeShape, Passage, Property, SpaceTime, Train,
+};
 
 use minijinja::syntax::SyntaxConfig;
 use minijinja::value::Serde;

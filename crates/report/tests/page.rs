@@ -68,6 +68,9 @@ fn nothing<'a>(results: &'a Results, verdicts: &'a Verdicts) -> Input<'a> {
         envelopes: vec![],
         passages: vec![],
         changes: vec![],
+        more_changes: String::new(),
+        losses: None,
+        comfort: vec![],
         commands: vec![],
         files: vec![],
         warnings: vec![],
@@ -131,6 +134,7 @@ fn train(k: i32) -> Train {
         axles: (0..50).map(|i| [f64::from(i / 2) * 18.0 + f64::from(i % 2) * 2.0, 170e3]).collect(),
         signature: (0..200).map(bell).collect(),
         spacings: vec![17.0 + f64::from(k)],
+        starts_at: 0.0,
         source: "EN 1991-2:2003, 6.4.6.1.1".into(),
     }
 }

@@ -3,4 +3,5 @@
 pub mod limits;
 pub mod run;
 pub mod tables;
+pub mod verify;
 pub mod watch;

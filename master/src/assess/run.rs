@@ -4,6 +4,7 @@ use std::path::Path;
 
 use ttb_assessment::{Basis, Criteria, Facts, Histories, Loads, Rail, Run, reduce};
 use ttb_dossier::folder::{Assessment, FILE};
+use ttb_dossier::statics;
 use ttb_scenario::Checked;
 use ttb_scenario::spec::Profile;
 use ttb_scenario::types::{CarChoice, Speed};
@@ -32,13 +33,18 @@ pub fn write(
     criteria: &Criteria,
     facts: &Facts,
 ) -> Result<(), Error> {
-    let reduced = reduce(histories, criteria, facts);
+    let mut reduced = reduce(histories, criteria, facts);
+    // A foreign bridge has no static answer here: its spans are not known either.
+    if let Some(checked) = about.checked.filter(|_| facts.spans_m.is_some()) {
+        statics::add_own(checked, &mut reduced.peaks);
+    }
     tables::write(folder, &run(about), about.step, &reduced.peaks)?;
     let assessment = Assessment {
         title: about.title.into(),
         facts: facts.clone(),
         limits: criteria.files.clone(),
         missing: reduced.missing,
+        losses: reduced.losses,
     };
     files::write_json(&folder.join(FILE), &assessment)
 }

@@ -17,6 +17,9 @@ mine.json overrides single entries, and facts of the bridge:
     \"criteria\": [ { \"id\": \"deck-acceleration\", \"source\": \"owner's specification 3.2\",
                     \"cases\": [ { \"limit\": 3.0 } ] } ] }
 
+--verify takes the time of four runs, and shows how much the step decides and what the bridge adds
+to the comfort: ttb report out --verify
+
 Exit code 6 with --check if a limit is exceeded. A criterion that is not judged is no failure; it
 is listed with its reason.";
 
@@ -34,6 +37,9 @@ pub struct Report {
     /// End with exit code 6 if a limit is exceeded
     #[arg(long)]
     pub check: bool,
+    /// Compute the governing run with vehicles once more: at half the step, and over a deck that does not move
+    #[arg(long)]
+    pub verify: bool,
     /// No table of the verdicts
     #[arg(short, long)]
     pub quiet: bool,

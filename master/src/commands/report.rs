@@ -8,7 +8,7 @@ use ttb_dossier::{Opened, page};
 use ttb_model_description::Date;
 use ttb_report::number::{beside, readable, short};
 
-use crate::assess::limits;
+use crate::assess::{limits, verify};
 use crate::cli::Report;
 use crate::error::Error;
 use crate::files;
@@ -26,6 +26,9 @@ pub fn report(arguments: &Report) -> Result<(), Error> {
     };
     let verdicts = judge(&criteria, &opened.assessment.facts, &opened.results);
     files::write_json(&arguments.folder.join(VERDICTS), &verdicts)?;
+    if arguments.verify {
+        verify::write(&arguments.folder, &opened, &criteria, &verdicts)?;
+    }
     let page = page::page(&opened, &verdicts, &criteria.people, date()?)?;
     let path = arguments.output.clone().unwrap_or_else(|| arguments.folder.join("report.html"));
     files::write(&path, page.as_bytes())?;
@@ -79,7 +82,7 @@ fn line(verdict: &Verdict) -> String {
     }
     let train = verdict.train.as_deref().unwrap_or_default();
     let speed = verdict.speed_km_h.map_or_else(String::new, |v| format!(" at {} km/h", short(v)));
-    let basis = verdict.basis.map_or_else(String::new, |basis| format!("; {basis}"));
+    let basis = verdict.basis.map_or_else(|| "; static".into(), |basis| format!("; {basis}"));
     let outside = if verdict.in_basis { "" } else { ", not the code's basis" };
     text + &format!("; {train}{speed}{basis}{outside}")
 }

@@ -7,7 +7,7 @@ use ttb_scenario::deck::Deck;
 use ttb_scenario::spec::StructureSpec;
 use ttb_scenario::types::Damping;
 
-use crate::folder::Opened;
+use crate::folder::{Opened, is_foreign};
 
 /// Modes that are shown at most, and points of a shape.
 const MODES: usize = 8;
@@ -18,10 +18,7 @@ pub fn of(opened: &Opened) -> (Option<Bridge>, Option<ModalBridge>) {
     let Some(checked) = &opened.checked else { return (None, None) };
     let Some(deck) = Deck::new(&checked.bridge.structure) else { return (None, None) };
     // A foreign FMU stands for the scenario's bridge: nothing of that one is shown.
-    let foreign = opened.summary.as_ref().is_some_and(|summary| {
-        summary["inputs"].as_array().is_some_and(|inputs| inputs.iter().any(|one| one["role"] == "bridge"))
-    });
-    if foreign {
+    if is_foreign(opened.summary.as_ref()) {
         return (None, None);
     }
     let modal = ModalBridge::new(&checked.bridge, &modal::Settings::default()).ok();

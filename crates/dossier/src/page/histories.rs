@@ -25,7 +25,7 @@ fn title(verdict: &Verdict) -> String {
 }
 
 /// The filter that a label names.
-fn filter(label: &str) -> Option<Filter> {
+pub(super) fn filter(label: &str) -> Option<Filter> {
     let rest = label.strip_prefix("butterworth-")?;
     let (order, rest) = rest.split_once('-')?;
     let (hz, phase) = rest.split_once("Hz-")?;

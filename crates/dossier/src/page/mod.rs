@@ -1,12 +1,14 @@
 //! From a folder to the values of a report.
 
+mod accuracy;
 mod bridge;
 mod histories;
+mod losses;
 mod trains;
 
 use serde_json::Value;
 use ttb_assessment::{Status, Verdict, Verdicts};
-use ttb_report::{Change, Envelope, Input, render};
+use ttb_report::{Envelope, Input, render};
 
 use crate::error::Error;
 use crate::folder::Opened;
@@ -15,7 +17,7 @@ use crate::folder::Opened;
 const ENVELOPE: &str = "envelope.csv";
 
 /// What the files of a folder hold.
-const FILES: [(&str, &str); 12] = [
+const FILES: [(&str, &str); 13] = [
     ("runs.csv", "a run a row: train, speed, variant, seed, basis, step"),
     ("peaks.csv", "a reduced value a row"),
     ("envelope.csv", "extremes along the deck"),
@@ -28,6 +30,7 @@ const FILES: [(&str, &str); 12] = [
     ("scenario.resolved.json", "the scenario with all defaults"),
     ("plan.json", "the plan of the sweep"),
     ("coupled-check.json", "governing runs by the other way"),
+    ("verified.json", "the governing run once more: half the step, a deck that does not move"),
 ];
 
 /// The page. `date` is the day that it names.
@@ -63,7 +66,10 @@ pub fn page(opened: &Opened, verdicts: &Verdicts, people: &[[String; 2]], date: 
         trains,
         envelopes: envelopes(opened, governing)?,
         passages,
-        changes: changes(opened, governing),
+        changes: accuracy::changes(opened, governing, modal.as_ref()),
+        more_changes: accuracy::more(opened),
+        losses: losses::of(opened),
+        comfort: accuracy::comfort(opened),
         commands,
         files: present.map(|(name, what)| [(*name).to_string(), (*what).to_string()]).collect(),
         warnings: opened.warnings.clone(),
@@ -105,40 +111,4 @@ fn envelopes(opened: &Opened, governing: Option<&Verdict>) -> Result<Vec<Envelop
         }
     }
     Ok(found)
-}
-
-/// The governing value behind the other filters of the same run, and by the other way.
-fn changes(opened: &Opened, governing: Option<&Verdict>) -> Vec<Change> {
-    let Some((verdict, before)) = governing.and_then(|verdict| Some((verdict, verdict.value?))) else {
-        return Vec::new();
-    };
-    let mut changes: Vec<Change> = Vec::new();
-    for (run, peak) in &opened.results.rows {
-        let same = peak.quantity == verdict.quantity
-            && peak.statistic.name() == verdict.statistic
-            && Some(&opened.results.runs[*run].run_id) == verdict.run_id.as_ref()
-            && peak.filter != verdict.filter;
-        if !same {
-            continue;
-        }
-        let what = format!("filter {} instead of {}", peak.filter, verdict.filter);
-        match changes.iter_mut().find(|change| change.what == what) {
-            Some(change) => change.after = change.after.max(peak.value),
-            None => changes.push(Change { what, before, after: peak.value, unit: verdict.unit.clone() }),
-        }
-    }
-    let text = opened.files.text("coupled-check.json").ok().flatten();
-    let read = text.and_then(|text| serde_json::from_str::<Value>(&text).ok());
-    for one in read.as_ref().and_then(Value::as_array).into_iter().flatten() {
-        let (Some(sweep), Some(coupled), Some(quantity)) =
-            (one["sweep"].as_f64(), one["coupled"].as_f64(), one["quantity"].as_str())
-        else {
-            continue;
-        };
-        let unit = if quantity == "deck.displacement" { "m" } else { "m/s2" };
-        let text = |key: &str| one[key].as_str().unwrap_or_default();
-        let what = format!("{quantity}, {}, by the coupled way (run {})", text("filter"), text("run_id"));
-        changes.push(Change { what, before: sweep, after: coupled, unit: unit.into() });
-    }
-    changes
 }

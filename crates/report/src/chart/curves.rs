@@ -58,12 +58,16 @@ pub struct Chart {
     pub y_name: String,
     /// Curves, the first drawn first.
     pub curves: Vec<Curve>,
+    /// Bars from zero: abscissa, value, class.
+    pub bars: Vec<([f64; 2], &'static str)>,
     /// Lines of constant value.
     pub across: Vec<Line>,
     /// Lines of constant abscissa.
     pub upright: Vec<Line>,
     /// Shaded ranges.
     pub bands: Vec<Band>,
+    /// Abscissas that belong to the picture of bars in any case.
+    pub bars_over: Option<[f64; 2]>,
     /// Height in pixels; 0: the usual one.
     pub height: f64,
     /// Whether 0 belongs to the values.
@@ -73,8 +77,10 @@ pub struct Chart {
 impl Chart {
     /// The picture; empty without a point.
     pub fn svg(&self) -> String {
-        let all = || self.curves.iter().flat_map(|curve| &curve.points);
-        let Some(x) = range(all().map(|p| p[0])) else { return String::new() };
+        let bars = || self.bars.iter().map(|(bar, _)| bar);
+        let all = || self.curves.iter().flat_map(|curve| &curve.points).chain(bars());
+        let wide = self.bars_over.iter().flatten().copied();
+        let Some(x) = range(all().map(|p| p[0]).chain(wide)) else { return String::new() };
         let limits = self.across.iter().map(|line| line.at);
         let zero = self.from_zero.then_some(0.0);
         let Some(y) = range(all().map(|p| p[1]).chain(limits).chain(zero)) else { return String::new() };
@@ -98,6 +104,9 @@ impl Chart {
             svg.line(line.class, [at, TOP], [at, up.from]);
             let (x, anchor) = if at > WIDTH - 110.0 { (at - 3.0, "end") } else { (at + 3.0, "start") };
             svg.text("mark", [x, TOP + 10.0 + 12.0 * (i % 4) as f64], anchor, &line.name);
+        }
+        for ([x, y], class) in &self.bars {
+            svg.line(class, [across.at(*x), up.at(0.0)], [across.at(*x), up.at(*y)]);
         }
         for curve in &self.curves {
             self.curve(&mut svg, curve, across, up);

@@ -13,11 +13,14 @@ pub(crate) struct Model {
     caption: String,
     inputs: Table,
     modes: Table,
+    line: Option<Figure>,
     shapes: Option<Figure>,
 }
 
 /// Points that are named in the sketch at most.
 const NAMED: usize = 8;
+/// Trains that are drawn at most.
+const DRAWN: usize = 24;
 
 impl Model {
     pub fn new(input: &Input) -> Self {
@@ -36,7 +39,8 @@ impl Model {
             }
             figure = shapes(bridge);
         }
-        Self { sketch: sketched, caption, inputs, modes, shapes: figure }
+        let line = input.bridge.as_ref().and_then(|bridge| frequencies(bridge, input));
+        Self { sketch: sketched, caption, inputs, modes, line, shapes: figure }
     }
 }
 
@@ -44,7 +48,7 @@ impl Model {
 fn governing<'a>(input: &'a Input) -> Option<(&'a Train, Option<f64>)> {
     let verdict = input.verdicts.verdicts.iter().find(|verdict| verdict.train.is_some())?;
     let train = input.trains.iter().find(|train| Some(&train.name) == verdict.train.as_ref())?;
-    let first = verdict.time_s.zip(verdict.speed_km_h).map(|(t, v)| t * v / 3.6);
+    let first = verdict.time_s.zip(verdict.speed_km_h).map(|(t, v)| train.starts_at + t * v / 3.6);
     Some((train, first))
 }
 
@@ -113,6 +117,59 @@ fn sketch(bridge: &Bridge, governing: Option<(&Train, Option<f64>)>) -> (String,
         );
     }
     (svg + "</svg>", caption)
+}
+
+/// The modes on an axis of frequencies, with n₀, the third mode and the cut-off of the deck's filter.
+fn frequencies(bridge: &Bridge, input: &Input) -> Option<Figure> {
+    let facts = &input.verdicts.facts;
+    let line = |at: Option<f64>, name: &str, class| {
+        at.map(|at| Line { at, name: format!("{name} {} Hz", digits(at, 4)), class })
+    };
+    let deck = input.verdicts.verdicts.iter().find(|verdict| verdict.criterion == "deck-acceleration");
+    let cut_off =
+        deck.and_then(|verdict| verdict.filter.split('-').find_map(|part| part.strip_suffix("Hz")?.parse().ok()));
+    let marks = [
+        line(facts.n0_hz, "n₀", "cancel"),
+        line(facts.third_mode_hz, "third mode", "cancel"),
+        line(cut_off, "cut-off f_c", "resonance"),
+    ];
+    let bars = bridge.modes.iter().map(|mode| ([mode.frequency, 100.0 * mode.damping.unwrap_or(0.01)], "stick c1"));
+    let most = cut_off.into_iter().chain(facts.third_mode_hz).fold(0.0, f64::max);
+    let chart = Chart {
+        name: "Natural frequencies and the cut-off of the filter".into(),
+        x_name: "frequency, Hz".into(),
+        y_name: "damping, %".into(),
+        bars: bars.collect(),
+        bars_over: Some([0.0, 1.05 * most]),
+        upright: marks.into_iter().flatten().collect(),
+        height: 170.0,
+        from_zero: true,
+        ..Chart::default()
+    };
+    if chart.bars.is_empty() {
+        return None;
+    }
+    let from = facts.modes_from.clone().unwrap_or_default();
+    let note = format!("A bar a mode that loads on the deck excite. n₀ and third mode: {from}.");
+    Some(Figure { title: "Frequencies and the cut-off".into(), svg: chart.svg(), note, table: Table::default() })
+}
+
+/// Axles of a train to scale, the heaviest load highest.
+fn drawing(train: &Train, longest: f64) -> String {
+    let (width, ground) = (720.0, 30.0);
+    let most = train.axles.iter().map(|axle| axle[1]).fold(0.0, f64::max).max(f64::MIN_POSITIVE);
+    let at = |x: f64| width - 6.0 - x / longest.max(1e-9) * (width - 12.0);
+    let name = escape(&format!("Axles of {} to scale", train.name));
+    let mut svg = format!("<svg viewBox=\"0 0 {width} 34\" class=\"chart\" role=\"img\" aria-label=\"{name}\">");
+    let rear = at(train.axles.last().map_or(0.0, |axle| axle[0]));
+    svg += &format!(
+        "<line class=\"axis\" x1=\"{rear:.1}\" y1=\"{ground}\" x2=\"{:.1}\" y2=\"{ground}\"/><path class=\"load\" d=\"",
+        at(0.0)
+    );
+    for [x, load] in &train.axles {
+        svg += &format!("M{:.1} {:.1}V{ground}", at(*x), ground - 24.0 * load / most);
+    }
+    svg + "\"/></svg>"
 }
 
 /// Shapes of the first modes.
@@ -202,6 +259,13 @@ pub(crate) fn trains(input: &Input) -> Vec<Figure> {
                 train.source.clone(),
             ]);
         }
+        let longest =
+            input.trains.iter().filter_map(|train| train.axles.last()).map(|axle| axle[0]).fold(0.0, f64::max);
+        let row = |train: &Train| format!("<p class=\"train\">{}</p>{}", escape(&train.name), drawing(train, longest));
+        let drawn: String = input.trains.iter().take(DRAWN).map(row).collect();
+        let note =
+            format!("To scale, running to the right; the longest is {} m from first to last axle.", short(longest));
+        figures.push(Figure { title: "Axles".into(), svg: drawn, note, table: Table::default() });
         figures.push(Figure { title: "Axles and loads".into(), svg: String::new(), note: String::new(), table });
     }
     figures

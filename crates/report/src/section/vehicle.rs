@@ -5,14 +5,17 @@ use std::collections::BTreeMap;
 use serde::Serialize;
 use ttb_assessment::{Peak, Statistic};
 
-use super::Table;
+use super::{Figure, Table};
+use crate::chart::{Band, Chart};
 use crate::input::Input;
-use crate::number::{digits, with_unit};
+use crate::number::{digits, short, with_unit};
 
 #[derive(Serialize)]
 pub(crate) struct Vehicle {
     wheels: Table,
     losses: String,
+    bars: Option<Figure>,
+    comfort: Table,
     bodies: Table,
 }
 
@@ -37,7 +40,8 @@ fn filters(input: &Input, quantity: &str) -> Vec<String> {
 
 impl Vehicle {
     pub fn new(input: &Input) -> Self {
-        Self { wheels: wheels(input), losses: losses(input), bodies: bodies(input) }
+        let comfort = comfort(input);
+        Self { wheels: wheels(input), losses: losses(input), bars: bars(input), comfort, bodies: bodies(input) }
     }
 }
 
@@ -104,6 +108,45 @@ fn losses(input: &Input) -> String {
         digits(1e3 * longest, 3),
         run.run_id
     )
+}
+
+/// Every loss of one run as a bar over the way, the bridge shaded.
+fn bars(input: &Input) -> Option<Figure> {
+    let losses = input.losses.as_ref().filter(|losses| !losses.bars.is_empty())?;
+    let band = losses.bridge.map(|range| Band { range, name: "the bridge".into() });
+    let on = |x: f64| losses.bridge.is_some_and(|[a, b]| (a..=b).contains(&x));
+    let chart = Chart {
+        name: "Losses of contact over the way".into(),
+        x_name: "on the track, m".into(),
+        y_name: "duration, ms".into(),
+        bars: losses.bars.iter().map(|[x, t]| ([*x, 1e3 * t], if on(*x) { "stick c2" } else { "stick c1" })).collect(),
+        bars_over: losses.bridge,
+        bands: band.into_iter().collect(),
+        height: 200.0,
+        from_zero: true,
+        ..Chart::default()
+    };
+    let mut table = Table::new(&["x, m", "duration, ms", "place"]);
+    for [x, t] in &losses.bars {
+        let place = if on(*x) { "on the bridge" } else { "off the bridge" };
+        table.rows.push(vec![short((x * 100.0).round() / 100.0), digits(1e3 * t, 3), place.into()]);
+    }
+    let note = format!(
+        "{}; shaded: the bridge. Every loss at the place where it begins (run {}).",
+        losses.title, losses.run_id
+    );
+    Some(Figure { title: "Losses of contact over the way".into(), svg: chart.svg(), note, table })
+}
+
+fn comfort(input: &Input) -> Table {
+    let mut table = Table::new(&["value", "filter and statistic", "with the bridge", "without", "difference"]);
+    for one in &input.comfort {
+        let value = |value: f64| with_unit(value, &one.unit);
+        let percent = 100.0 * (one.with / one.without - 1.0);
+        let percent = if percent.is_finite() { format!("{percent:+.1} %") } else { "–".into() };
+        table.rows.push(vec![one.what.clone(), one.how.clone(), value(one.with), value(one.without), percent]);
+    }
+    table
 }
 
 fn bodies(input: &Input) -> Table {

@@ -72,6 +72,9 @@ impl Verdicts {
             ("frequencies from", facts.modes_from.clone()),
             ("track", facts.track.clone()),
             ("level of comfort", facts.comfort_level.clone()),
+            ("maintenance of the track", facts.maintenance.clone()),
+            ("classification factor α", facts.alpha.map(|alpha| digits(alpha, 3))),
+            ("speed of the line", facts.line_speed_km_h.map(|v| format!("{} km/h", speed(Some(v))))),
         ];
         Self {
             judged: all.iter().filter(|verdict| verdict.status != Status::NotJudged).map(Row::new).collect(),
@@ -126,7 +129,9 @@ impl Row {
             } else {
                 verdict.filter.clone()
             },
-            basis: verdict.basis.map_or_else(String::new, |basis| basis.to_string()),
+            basis: verdict
+                .basis
+                .map_or_else(|| "static load model, by influence lines".into(), |basis| basis.to_string()),
             outside: !verdict.in_basis,
             permissible,
             clause: verdict.clause.clone(),
