@@ -41,7 +41,7 @@ pub use load::{Checked, ForceLookUp, from_str, from_str_using, from_str_with, lo
 pub use placement::Chosen;
 pub use problem::{Problem, Problems, Warning, nearest};
 pub use ranges::{usual, usual_frequencies};
-pub use schema::{model_schema, schema};
+pub use schema::{model_schema, schema, strict};
 pub use settings::Setting;
 pub use ttb_contract::GRAVITY;
 pub use ttb_import::text as read_text;

@@ -11,7 +11,7 @@ pub fn schema(bridge: bool, summary: bool, verdicts: bool) -> Result<(), Error> 
     }
     match (bridge, summary) {
         (true, _) => say!("{:#}", ttb_scenario::model_schema()),
-        (_, true) => say!("{:#}", summary::schema().to_value()),
+        (_, true) => say!("{:#}", ttb_scenario::strict(summary::schema().to_value())),
         _ => say!("{:#}", ttb_scenario::schema()),
     }
     Ok(())
