@@ -1,39 +1,17 @@
 """Bridges imported from CalculiX and OpenSees under R1's train: what the beam of R1 answers."""
 
-import json
+import shutil
 
 import pandas
 import pytest
 from importing import recipe
 
-FILES = {
-    "calculix": {
-        "stiffness": "bridge.sti",
-        "mass": "bridge.mas",
-        "dofs": "bridge.dof",
-        "nodes": "nodes.csv",
-        "supports": "supports.csv",
-        "points": "points.csv",
-    },
-    "opensees": {
-        "stiffness": "K.mtx",
-        "mass": "M.mtx",
-        "dofs": "dofs.csv",
-        "supports": "supports.csv",
-        "points": "points.csv",
-    },
-}
-
-
-@pytest.fixture(scope="module", params=FILES)
+@pytest.fixture(scope="module", params=["calculix", "opensees"])
 def imported(request, examples, tmp_path_factory):
-    """A folder with the matrices and R1's scenario over them."""
+    """A folder with the matrices and the scenario of examples/import."""
     folder = tmp_path_factory.mktemp(request.param)
     recipe(request.param).write(folder)
-    scenario = json.loads((examples / "r1.json").read_text())
-    scenario["bridge"]["structure"] = {"type": "matrices", "files": FILES[request.param], "length": 32.5}
-    scenario["bridge"]["points"] = []
-    (folder / "scenario.json").write_text(json.dumps(scenario))
+    shutil.copy(examples / "import" / request.param / "scenario.json", folder)
     return folder
 
 
