@@ -57,7 +57,8 @@ pub const PEAKS: [&str; 15] = [
     "time_s",
     "static_value",
 ];
-const ENVELOPE: [&str; 6] = ["run_id", "quantity", "filter", "x_m", "min", "max"];
+/// Columns of envelope.csv.
+pub const ENVELOPE: [&str; 6] = ["run_id", "quantity", "filter", "x_m", "min", "max"];
 
 /// What a run stands on: loads or vehicles.
 pub fn basis(load: &Load) -> &'static str {

@@ -2,7 +2,9 @@
 
 use std::path::Path;
 
-use ttb_assessment::{Basis, Criteria, Facts, Histories, Loads, Rail, Run, reduce};
+use ttb_assessment::peak::quantity::DECK_ACCELERATION;
+use ttb_assessment::{Basis, Criteria, Facts, Filter, Histories, Loads, Rail, Run, reduce};
+use ttb_campaign::coupled::rows::envelopes;
 use ttb_dossier::folder::{Assessment, FILE};
 use ttb_dossier::statics;
 use ttb_scenario::Checked;
@@ -34,11 +36,23 @@ pub fn write(
     facts: &Facts,
 ) -> Result<(), Error> {
     let mut reduced = reduce(histories, criteria, facts);
+    let run = run(about);
+    for peak in &mut reduced.peaks {
+        peak.time = peak.time.map(written);
+        peak.x = peak.x.map(written);
+    }
     // A foreign bridge has no static answer here: its spans are not known either.
     if let Some(checked) = about.checked.filter(|_| facts.spans_m.is_some()) {
         statics::add_own(checked, &mut reduced.peaks);
     }
-    tables::write(folder, &run(about), about.step, &reduced.peaks)?;
+    tables::write(folder, &run, about.step, &reduced.peaks)?;
+    if !histories.deck.is_empty() {
+        let points = histories.points.iter().chain(&histories.deck).cloned().collect();
+        let along = Histories { time: histories.time.clone(), points, ..Histories::default() };
+        let mut envelopes = envelopes(&along, &judged(criteria, facts));
+        envelopes.iter_mut().flat_map(|one| &mut one.x).for_each(|x| *x = written(*x));
+        tables::write_envelopes(folder, &run.run_id, &envelopes)?;
+    }
     let assessment = Assessment {
         title: about.title.into(),
         facts: facts.clone(),
@@ -47,6 +61,19 @@ pub fn write(
         losses: reduced.losses,
     };
     files::write_json(&folder.join(FILE), &assessment)
+}
+
+/// The filter behind which the deck's acceleration is judged.
+fn judged(criteria: &Criteria, facts: &Facts) -> Filter {
+    let facts = facts.overruled_by(&criteria.facts);
+    let wanted = criteria.wanted(&facts);
+    let of_deck = wanted.iter().find(|one| one.quantity == DECK_ACCELERATION && one.filter != Filter::Raw);
+    of_deck.map_or(Filter::Raw, |one| one.filter)
+}
+
+/// The shortest form of a time n h or of a place n d: 1.533, where the product of binary numbers is 1.5330000000000001.
+fn written(value: f64) -> f64 {
+    format!("{value:.12e}").parse().unwrap_or(value)
 }
 
 fn run(about: &About) -> Run {

@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use ttb_assessment::{Basis, Loads, Peak, Rail, Run};
+use ttb_campaign::record::Envelope;
 use ttb_campaign::tables::{self, Named, optional, peak_row};
 use ttb_dossier::tables::{PEAKS, RUNS};
 
@@ -38,6 +39,18 @@ pub fn write(folder: &Path, run: &Run, step: f64, peaks: &[Peak]) -> Result<(), 
     };
     let rows = peaks.iter().map(|peak| peak_row(&run.run_id, &named, peak));
     table(&folder.join(PEAKS), &tables::PEAKS, rows)
+}
+
+/// Writes extremes along the deck of one run.
+pub fn write_envelopes(folder: &Path, run_id: &str, envelopes: &[Envelope]) -> Result<(), Error> {
+    let rows = envelopes.iter().flat_map(|one| {
+        let values = one.x.iter().zip(&one.min).zip(&one.max);
+        values.map(|((x, min), max)| {
+            let numbers = [x, min, max].map(f64::to_string);
+            [run_id, &one.quantity, &one.filter].map(str::to_string).into_iter().chain(numbers).collect()
+        })
+    });
+    table(&folder.join(tables::TABLES[2]), &tables::ENVELOPE, rows)
 }
 
 fn words(basis: Basis) -> (&'static str, &'static str) {

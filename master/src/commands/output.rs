@@ -19,7 +19,7 @@ use crate::results::summary::{Shown, Summary};
 const SUMMARY: &str = "summary.json";
 const SCENARIO: &str = "scenario.resolved.json";
 /// What a run writes besides, and copies of its maps: `bridge-map.json`, `bridge-map-2.json` …
-const FILES: [&str; 12] = [
+const FILES: [&str; 14] = [
     "results.csv",
     "iterations.csv",
     "results.svg",
@@ -28,6 +28,8 @@ const FILES: [&str; 12] = [
     "Bridge.fmu",
     "runs.csv",
     "peaks.csv",
+    "envelope.csv",
+    "verified.json",
     "assessment.json",
     "verdicts.json",
     "report.html",

@@ -130,10 +130,12 @@ pub fn reduce(histories: &Histories, criteria: &Criteria, facts: &Facts) -> Redu
     };
     histories.points.iter().for_each(|point| deck::reduce(point, record, &asked, &mut out));
     if !histories.deck.is_empty() {
-        let mut along = out.clone();
+        let mut along = Reduced { missing: out.missing.clone(), ..Reduced::default() };
         histories.deck.iter().for_each(|point| deck::reduce(point, record, &asked, &mut along));
-        out.missing.clone_from(&along.missing);
-        out.peaks.splice(0..0, deck::worst(&along.peaks));
+        out.missing = along.missing;
+        let known = |peak: &&Peak| along.peaks.iter().any(|other| other.quantity == peak.quantity);
+        let named: Vec<Peak> = out.peaks.iter().filter(known).cloned().collect();
+        out.peaks.splice(0..0, deck::worst(&[named, along.peaks.clone()].concat()));
     }
     for axle in &histories.axles {
         wheel::reduce(axle, histories, record, &asked, &mut out);

@@ -54,7 +54,7 @@ impl DesignEffect {
     }
 }
 
-/// Displacements below this share of the largest are no effect that a ratio tells something of.
+/// Effects below this share of the largest are no effect that a ratio tells something of.
 const SMALL: f64 = 0.02;
 
 /// Design effects of all runs beside the load models.
@@ -109,7 +109,9 @@ fn amount(case: &LoadCase, quantity: &str, statistic: Statistic, x: f64) -> Opti
         along(&case.rows, quantity, statistic).filter_map(|row| Some([row.x?, row.value.abs()])).collect();
     line.sort_by(|a, b| a[0].total_cmp(&b[0]).then(b[1].total_cmp(&a[1])));
     line.dedup_by(|next, kept| next[0] == kept[0]);
-    let most = line.iter().map(|point| point[1]).fold(0.0, f64::max);
+    // In both senses: the least displacement of a simple span is rounding.
+    let both = [Statistic::Max, Statistic::Min].into_iter().flat_map(|sense| along(&case.rows, quantity, sense));
+    let most = both.map(|row| row.value.abs()).fold(0.0, f64::max);
     let after = line.partition_point(|point| point[0] < x);
     let (a, b) = (line.get(after.saturating_sub(1))?, line.get(after.min(line.len() - 1))?);
     let share = if b[0] > a[0] { ((x - a[0]) / (b[0] - a[0])).clamp(0.0, 1.0) } else { 0.0 };
