@@ -34,7 +34,11 @@ type Modes = (f64, Option<f64>, String);
 /// Facts of a scenario; its bridge is prepared where its frequencies are needed. What cannot be told stays unknown.
 pub fn of(checked: &Checked) -> Facts {
     let whole = || BridgeSpec { points: Vec::new(), reduction: None, modes: None, ..checked.bridge.clone() };
-    of_own(checked, || vertical(checked).or_else(|| lowest(&*Prepared::new(&whole()).ok()?)))
+    let others = || {
+        let bridge = Prepared::new(&whole()).ok()?;
+        lowest(&bridge)
+    };
+    of_own(checked, || vertical(checked).or_else(others))
 }
 
 /// Facts of a scenario whose bridge is prepared already; frequencies of a large one stay unknown.

@@ -14,6 +14,9 @@ use super::trains::force_train;
 use crate::folder::Opened;
 use crate::verified;
 
+/// A value that was computed once more is the same up to this share: the tables have all its digits.
+const SAME: f64 = 1e-6;
+
 /// All lines.
 pub fn changes(opened: &Opened, governing: Option<&Verdict>, modal: Option<&ModalBridge>) -> Vec<Change> {
     let Some((verdict, before)) = governing.and_then(|verdict| Some((verdict, verdict.value?))) else {
@@ -82,12 +85,12 @@ fn of_filters(opened: &Opened, verdict: &Verdict, before: f64) -> Vec<Change> {
 fn of_modes(opened: &Opened, verdict: &Verdict, before: f64, modal: Option<&ModalBridge>) -> Option<Vec<Change>> {
     let modal = modal.filter(|_| verdict.quantity == "deck.acceleration" && verdict.variant.is_none())?;
     let plan = opened.plan.as_ref().filter(|plan| plan["way"] == "modal")?;
-    let trains = plan["trains"].as_array()?.iter().filter_map(force_train);
-    let train = trains.into_iter().find(|train| Some(&train.name) == verdict.train.as_ref())?;
+    let mut trains = plan["trains"].as_array()?.iter().filter_map(force_train);
+    let train = trains.find(|train| Some(&train.name) == verdict.train.as_ref())?;
     let speed = verdict.speed_km_h? / 3.6;
     let judged = filter(&verdict.filter)?;
-    let value = |bridge: &ModalBridge, filter: &Filter| -> Option<f64> {
-        let passage = Passage::new(bridge, &train, Heading::Forward, None);
+    let value_from = |bridge: &ModalBridge, filter: &Filter, heading: Heading| -> Option<f64> {
+        let passage = Passage::new(bridge, &train, heading, None);
         let histories = passage.histories(speed);
         let filtered = histories.filtered(|h, signal| {
             if let Ok(values) = filter.apply(signal, 1.0 / h, speed * h) {
@@ -96,6 +99,12 @@ fn of_modes(opened: &Opened, verdict: &Verdict, before: f64, modal: Option<&Moda
         });
         filtered.accelerations().iter().map(|extreme| extreme.largest().0.abs()).reduce(f64::max)
     };
+    // The direction in which the train ran is that which gives the value once more.
+    let is_same = |heading: &Heading| {
+        value_from(modal, &judged, *heading).is_some_and(|value| (value / before - 1.0).abs() < SAME)
+    };
+    let heading = [Heading::Forward, Heading::Backward].into_iter().find(is_same)?;
+    let value = |bridge: &ModalBridge, filter: &Filter| value_from(bridge, filter, heading);
     let line =
         |what: String, after: Option<f64>| Some(Change { what, before, after: after?, unit: verdict.unit.clone() });
     let mut changes = Vec::new();
