@@ -10,7 +10,7 @@ use ttb_scenario::limits::pre_roll_steps;
 
 use super::axle::{FIRST_RAIL, PORTS, RAIL_PORTS};
 use super::car::AXLES;
-use super::newton::Of;
+use super::newton::{CarPorts, Of};
 use super::rails::W_SUM;
 use super::state::SpaceState;
 use super::system::{SpaceStep, SpaceSystem};
@@ -47,6 +47,7 @@ pub fn pre_roll(
         system.meet(t);
         system.free_cars(matrices, &old, t);
         system.free_car_ports(&newmark, &old);
+        system.ports.iter_mut().for_each(CarPorts::begin);
         system.begin_jacobians(&of, false)?;
         system.solve_ports(&of, t).map_err(|e| format!("{e} (pre-roll of the cars)"))?;
         for ports in &mut system.ports {

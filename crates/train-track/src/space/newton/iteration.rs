@@ -74,6 +74,51 @@ impl CarPorts {
         self.lu.factorise()
     }
 
+    /// Remembers f, s and ṡ as those that the step begins with.
+    pub fn begin(&mut self) {
+        self.begun[0].copy_from_slice(&self.f);
+        self.begun[1].copy_from_slice(&self.motion[0]);
+        self.begun[2].copy_from_slice(&self.motion[1]);
+    }
+
+    /// Where Newton's method finds no way from the old forces in one stride: s_free and ṡ_free are led in stages from those
+    /// that the old forces and motions would have, to their own.
+    ///
+    /// # Errors
+    /// As [`CarPorts::solve`].
+    pub(super) fn solve_in_stages(&mut self, of: &Of, stages: usize) -> Result<f64, bool> {
+        let n = self.n;
+        self.target[0].copy_from_slice(&self.free[0]);
+        self.target[1].copy_from_slice(&self.free[1]);
+        self.f.copy_from_slice(&self.begun[0]);
+        // follow() gives s = s_free + Y f: what that s has more than the old one is taken off of s_free.
+        self.follow(of);
+        for k in 0..2 {
+            for i in 0..n {
+                self.start[k][i] = self.target[k][i] + self.begun[k + 1][i] - self.motion[k][i];
+            }
+        }
+        let mut solved = Ok(0.0);
+        for stage in 1..=stages {
+            let part = stage as f64 / stages as f64;
+            for k in 0..2 {
+                for i in 0..n {
+                    let (from, to) = (self.start[k][i], self.target[k][i]);
+                    self.free[k][i] = if stage == stages { to } else { from + part * (to - from) };
+                }
+            }
+            self.follow(of);
+            self.renewed = true;
+            solved = if self.renew(of) { self.solve(of) } else { Err(false) };
+            if solved.is_err() {
+                break;
+            }
+        }
+        self.free[0].copy_from_slice(&self.target[0]);
+        self.free[1].copy_from_slice(&self.target[1]);
+        solved
+    }
+
     /// J at the forces and motions that the step begins with.
     ///
     /// # Errors

@@ -33,6 +33,8 @@ const FLOOR: f64 = 1e-11;
 const GAIN: f64 = 0.2;
 /// The least part of a correction that is tried.
 const LEAST: f64 = 1e-4;
+/// Stages in which a step is tried where Newton's method fails in one.
+const STAGES: [usize; 3] = [4, 16, 64];
 /// Arm by which rotations and moments are compared with displacements and forces, m.
 const ARM: f64 = 0.75;
 
@@ -72,7 +74,13 @@ pub fn solve(cars: &mut [CarPorts], of: &Of) -> Result<(), NotSolved> {
                 continue;
             }
             ports.follow(of);
-            let solved = ports.solve(of).map_err(|not_finite| NotSolved { car, not_finite })?;
+            let mut solved = ports.solve(of);
+            for stages in STAGES {
+                if solved.is_err() {
+                    solved = ports.solve_in_stages(of, stages);
+                }
+            }
+            let solved = solved.map_err(|not_finite| NotSolved { car, not_finite })?;
             if !first {
                 moved = larger(moved, solved);
             }

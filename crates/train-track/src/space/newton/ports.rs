@@ -59,6 +59,11 @@ pub struct CarPorts {
     pub(super) change: [Vec<f64>; 3],
     /// Whether J is no longer that of the step's begin.
     pub(super) renewed: bool,
+    /// f, s and ṡ of the step's begin, and s_free and ṡ_free of its end while they are approached in stages.
+    pub(super) begun: [Vec<f64>; 3],
+    pub(super) target: [Vec<f64>; 2],
+    /// Where the stages begin.
+    pub(super) start: [Vec<f64>; 2],
     /// What neighbours moved its ports by when they were looked at last.
     pub(super) met: Vec<f64>,
 }
@@ -88,6 +93,9 @@ impl CarPorts {
             residual: zeros(),
             change: [zeros(), zeros(), zeros()],
             renewed: false,
+            begun: [zeros(), zeros(), zeros()],
+            target: [zeros(), zeros()],
+            start: [zeros(), zeros()],
             met: zeros(),
         }
     }

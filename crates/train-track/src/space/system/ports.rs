@@ -17,6 +17,7 @@ impl SpaceSystem {
             ports.motion[1].copy_from_slice(&old.ports[2][range]);
             let count = ports.elements.len();
             ports.inner[0].copy_from_slice(&old.inner[inner..inner + count]);
+            ports.begin();
             (at, inner) = (at + ports.n, inner + count);
         }
     }
