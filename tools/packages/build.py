@@ -1,4 +1,4 @@
-"""The two stages: the program for each system, then once more with the libraries of all systems inside."""
+"""The two stages: the FMUs' libraries for each system, then the program for each with all of them inside."""
 
 import os
 import platform
@@ -22,10 +22,12 @@ class Target:
 
     system: str
     triple: str | None
-    command: tuple
+    cargo: tuple
+    build: str
     wheel_tag: str
     fmi: str
     library: str
+    glibc: str = ""
     suffix: str = ""
     environment: tuple = ()
 
@@ -33,8 +35,10 @@ class Target:
 LINUX = Target(
     system="linux",
     triple="x86_64-unknown-linux-gnu",
+    cargo=("cargo-zigbuild",),
+    build="zigbuild",
     # The oldest glibc that Rust supports: that of RHEL 7, 2012.
-    command=("cargo", "zigbuild", "--target", "x86_64-unknown-linux-gnu.2.17"),
+    glibc=".2.17",
     wheel_tag="manylinux_2_17_x86_64.manylinux2014_x86_64",
     fmi="linux64",
     library="lib{}.so",
@@ -42,23 +46,24 @@ LINUX = Target(
 WINDOWS = Target(
     system="windows",
     triple="x86_64-pc-windows-gnu",
-    command=("cargo", "build", "--target", "x86_64-pc-windows-gnu"),
+    cargo=("cargo",),
+    build="build",
     wheel_tag="win_amd64",
     fmi="win64",
     library="{}.dll",
     suffix=".exe",
-    # Without it ld keeps all of the standard library: DLLs of 9 MB instead of 4.
+    # Without it ld keeps all that is linked, used or not: DLLs of 9 MB.
     environment=(("CARGO_PROFILE_RELEASE_LTO", "thin"),),
 )
 # A program built by the system's own compiler serves machines like this one.
-HERE = replace(LINUX, triple=None, command=("cargo", "build"), wheel_tag=f"linux_{platform.machine()}")
+HERE = replace(LINUX, triple=None, wheel_tag=f"linux_{platform.machine()}")
 
 
 def possible(systems):
     """Targets that can be built here, and why the others cannot."""
     targets, left_out = [], []
     if "linux" in systems:
-        if _runs("cargo", "zigbuild", "--help") and _runs(sys.executable, "-m", "ziglang", "version"):
+        if _runs("cargo-zigbuild", "--help") and _runs(sys.executable, "-m", "ziglang", "version"):
             targets.append(LINUX)
         else:
             left_out.append("Linux, glibc 2.17: pip install ziglang==0.15.2 cargo-zigbuild==0.24.1, and call tools/dist by that Python")
@@ -90,36 +95,43 @@ def _sysroot():
 
 def programs(targets):
     """Both stages; a target and its program after the other."""
-    folders = [(target, _build(target)) for target in targets]
+    for target in targets:
+        for crate in FMUS.values():
+            # A library alone: with the Rust library that others link it would not be optimised as a whole.
+            _cargo(target, "rustc", "--package", crate.replace("_", "-"), "--crate-type", "cdylib")
     archive = _folder() / "dist" / "libraries.zip"
     archive.parent.mkdir(parents=True, exist_ok=True)
-    _compress(folders, archive)
-    for target, folder in folders:
-        _build(target, libraries=archive)
-        yield target, folder / f"ttb{target.suffix}"
+    _compress(targets, archive)
+    for target in targets:
+        _cargo(target, target.build, "--package", "ttb", libraries=archive)
+        yield target, _built(target) / f"ttb{target.suffix}"
 
 
 def _folder():
     return Path(os.environ.get("CARGO_TARGET_DIR", ROOT / "target")).absolute()
 
 
-def _build(target, libraries=None):
-    """Builds the program; the folder it is in."""
+def _built(target):
+    """Where cargo puts things."""
+    return _folder() / target.triple / "release"
+
+
+def _cargo(target, *arguments, libraries=None):
+    """Builds for a target, with libraries inside."""
     environment = dict(_environment(), CARGO_TARGET_DIR=str(_folder()), **dict(target.environment))
     if libraries:
         environment["TTB_LIBRARIES"] = str(libraries)
-    command = [*target.command, "--release", "--locked", "--package", "ttb"]
-    print("tools/dist:", *command, *(["with libraries inside"] if libraries else []), file=sys.stderr)
+    command = [*target.cargo, arguments[0], "--release", "--locked", "--target", target.triple + target.glibc, *arguments[1:]]
+    print("tools/dist:", *command, file=sys.stderr)
     subprocess.run(command, cwd=ROOT, env=environment, check=True)
-    return _folder() / (target.triple or ".") / "release"
 
 
-def _compress(folders, archive):
+def _compress(targets, archive):
     """The libraries of all FMUs and systems, under the names they get in the FMUs."""
     with zipfile.ZipFile(archive, "w", zipfile.ZIP_DEFLATED, compresslevel=9) as zip:
         for fmu, crate in FMUS.items():
-            for target, folder in folders:
-                built = folder / "deps" / target.library.format(crate)
+            for target in targets:
+                built = _built(target) / "deps" / target.library.format(crate)
                 entry = zipfile.ZipInfo(f"binaries/{target.fmi}/{fmu}{built.suffix}", NO_DATE)
                 entry.compress_type = zipfile.ZIP_DEFLATED
                 entry.external_attr = 0o100644 << 16
