@@ -29,9 +29,13 @@ def library(any_fmu):
 def test_all_members_are_where_the_standard_wants_them(any_fmu, archive):
     """FMI 2.0, section 2.3."""
     resource = {"TrainTrack": "train-track.json", "Bridge": "bridge.json"}[any_fmu.identifier]
-    assert archive.namelist() == [
+    names = archive.namelist()
+    # A program that leaves the house has the libraries of several systems inside.
+    others = [name for name in names if name == f"binaries/win64/{any_fmu.identifier}.dll"]
+    assert names == [
         DESCRIPTION,
         f"binaries/linux64/{any_fmu.identifier}.so",
+        *others,
         "documentation/index.html",
         "documentation/licenses/license.txt",
         f"resources/{resource}",
