@@ -11,9 +11,12 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, AtomicI32, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 
-use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
-use signal_hook::iterator::Signals;
 use ttb_fmi::leave;
+
+/// Numbers that all Unix systems share; on Windows they stand for a console that closes, Ctrl-C and Ctrl-Break.
+const SIGHUP: i32 = 1;
+const SIGINT: i32 = 2;
+const SIGTERM: i32 = 15;
 
 /// A signal that ends the program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -48,14 +51,10 @@ impl Stop {
     /// Watches for signals from now on, in a thread of its own.
     pub fn watch() -> Self {
         let stop = Self::default();
-        let watched = [SIGINT, SIGTERM, SIGHUP].into_iter().filter(|signal| !is_ignored(*signal));
-        match Signals::new(watched) {
-            Ok(mut signals) => {
-                let seen = stop.clone();
-                std::thread::spawn(move || signals.forever().for_each(|signal| seen.take(signal)));
-            }
-            // Without a handler a signal ends the program at once: no reason not to run.
-            Err(error) => note!("ttb: warning: Ctrl-C will not keep results: {error}"),
+        let seen = stop.clone();
+        // Without a handler a signal ends the program at once: no reason not to run.
+        if let Err(error) = watch(move |signal| seen.take(signal)) {
+            note!("ttb: warning: Ctrl-C will not keep results: {error}");
         }
         stop
     }
@@ -93,7 +92,21 @@ impl Stop {
     }
 }
 
+/// Calls `hear` with every signal from now on.
+#[cfg(windows)]
+use ttb_fmi::platform::watch_requests_to_end as watch;
+
+/// Calls `hear` with every signal from now on, in a thread of its own.
+#[cfg(unix)]
+fn watch(hear: impl Fn(i32) + Send + 'static) -> std::io::Result<()> {
+    let watched = [SIGINT, SIGTERM, SIGHUP].into_iter().filter(|signal| !is_ignored(*signal));
+    let mut signals = signal_hook::iterator::Signals::new(watched)?;
+    std::thread::spawn(move || signals.forever().for_each(hear));
+    Ok(())
+}
+
 /// Whether the program was begun with a signal ignored, as the kernel tells: a mask of bits, signal 1 the lowest.
+#[cfg(unix)]
 fn is_ignored(signal: i32) -> bool {
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
     let mask = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));

@@ -126,6 +126,10 @@ fn safe_path(name: &str) -> Result<PathBuf, &'static str> {
         if part == ".." {
             return Err("leads out of the archive with \"..\"");
         }
+        // Of a folder in the archive it makes another drive, or a stream beside a file.
+        if cfg!(windows) && part.contains(':') {
+            return Err("has a name with a colon, which no file of Windows may have");
+        }
         path.push(part);
     }
     Ok(path)

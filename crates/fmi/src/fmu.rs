@@ -47,7 +47,8 @@ impl Fmu {
     /// No co-simulation FMU of this version, or this system has no isolation.
     pub fn open_isolated(path: &Path, version: &'static Version, isolation: &Isolation) -> Result<Self, FmuError> {
         if !isolate::AVAILABLE {
-            let (instance, what) = (path.display().to_string(), "FMUs can be isolated on Linux only".to_string());
+            let (instance, what) =
+                (path.display().to_string(), "FMUs can be isolated on Linux and Windows only".to_string());
             return Err(FmuError::Impossible { instance, what });
         }
         let (folder, description) = unpacked(path, version)?;
@@ -106,11 +107,13 @@ fn unpacked(path: &Path, version: &Version) -> Result<(Arc<Temporary>, Arc<Model
     Ok((Arc::new(folder), Arc::new(description)))
 }
 
-/// `file:///…` of a folder, percent-encoded.
+/// `file:///…` of a folder, percent-encoded; on Windows `file:///C:/…`.
 pub fn file_uri(folder: &Path) -> String {
-    let mut uri = String::from("file://");
+    let mut uri = String::from(if cfg!(windows) { "file:///" } else { "file://" });
     for byte in folder.as_os_str().as_encoded_bytes() {
         match byte {
+            b'\\' if cfg!(windows) => uri.push('/'),
+            b':' if cfg!(windows) => uri.push(':'),
             b'a'..=b'z' | b'A'..=b'Z' | b'0'..=b'9' | b'/' | b'-' | b'.' | b'_' | b'~' => uri.push(char::from(*byte)),
             _ => uri += &format!("%{byte:02X}"),
         }

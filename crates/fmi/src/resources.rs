@@ -1,6 +1,6 @@
 //! Where the resources of an FMU are: the many ways importers say it.
 
-use crate::platform::{library_of, path};
+use crate::platform::{NETWORK_PATHS, library_of, path};
 use std::ffi::CStr;
 use std::path::PathBuf;
 
@@ -15,13 +15,13 @@ pub fn resource_folder(location: Option<&CStr>, code: usize) -> PathBuf {
         return beside_library(code);
     }
     let Some(rest) = strip_scheme(location) else {
-        return path(location).to_path_buf();
+        return path(location).into_owned();
     };
     let raw = local_path(rest);
     let decoded = percent_decode(&raw);
     // An importer that does not encode may pass a folder whose name merely looks encoded.
     let unencoded = !path(&decoded).exists() && path(&raw).exists();
-    path(if unencoded { &raw } else { &decoded }).to_path_buf()
+    path(if unencoded { &raw } else { &decoded }).into_owned()
 }
 
 fn strip_scheme(location: &[u8]) -> Option<&[u8]> {
@@ -30,8 +30,12 @@ fn strip_scheme(location: &[u8]) -> Option<&[u8]> {
 }
 
 /// The path of a file URI without its scheme: an authority other than `localhost` can only be the first folder of a
-/// URI with a slash too few, since the resources are on this machine.
+/// URI with a slash too few, since the resources are on this machine; on Windows it may be that of a folder in the network.
 fn local_path(rest: &[u8]) -> Vec<u8> {
+    let host = rest.strip_prefix(b"//").and_then(|host| host.split(|b| *b == b'/').next()).unwrap_or_default();
+    if NETWORK_PATHS && !host.is_empty() && host != b"localhost" && host.get(1) != Some(&b':') {
+        return rest.to_vec();
+    }
     let slashes = rest.iter().take_while(|b| **b == b'/').count();
     let path = &rest[slashes..];
     let path = match path.strip_prefix(b"localhost") {

@@ -133,12 +133,12 @@ pub fn keep() -> io::Result<()> {
     let parent = std::env::var(PARENT).ok().and_then(|number| number.parse().ok());
     let folders = platform::read_until_parent_is_gone(parent)?;
     // Whatever lost processes of foreign code have left behind.
-    #[cfg(target_os = "linux")]
+    #[cfg(any(target_os = "linux", windows))]
     parent.into_iter().for_each(platform::process::end_started_by);
     // An isolated FMU's process, which ends at the same moment, may still write: once more then.
     for folder in folders.split(|byte| *byte == 0).filter(|folder| !folder.is_empty()) {
         let folder = platform::path(folder);
-        let gone = |_: &u32| std::fs::remove_dir_all(folder).is_ok() || !folder.exists();
+        let gone = |_: &u32| std::fs::remove_dir_all(&folder).is_ok() || !folder.exists();
         (0..3_u32).find(gone);
     }
     Ok(())

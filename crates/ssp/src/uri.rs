@@ -91,7 +91,13 @@ impl Base {
         let floor = if whole { None } else { self.archive.as_deref() };
         let begin = path.clone();
         for part in source.path.split('/').filter(|part| !part.is_empty() && *part != ".") {
-            if part != ".." {
+            if cfg!(windows) && part.contains(':') {
+                // A drive, `/C:/folder`; anywhere else it would lead to one.
+                if !(whole && path == begin && part.len() == 2 && part.ends_with(':')) {
+                    return Err(format!("is {:?}: a name with a colon", source.path));
+                }
+                path = PathBuf::from(format!("{part}\\"));
+            } else if part != ".." {
                 path.push(part);
             } else if floor == Some(path.as_path()) || !path.pop() {
                 return Err(format!("is {:?}: it leads out of the archive", source.path));

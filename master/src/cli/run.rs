@@ -53,7 +53,7 @@ pub struct Run {
     /// Run FMUs in processes of their own: should one crash or hang, the results so far are kept
     ///
     /// Without value: the FMUs given by --bridge and --train-track, or both of an .ssp file. What such an FMU prints goes
-    /// to standard error, each line after its name. Linux only.
+    /// to standard error, each line after its name.
     #[arg(long, value_name = "SIDE", num_args = 0..=1, require_equals = true, default_missing_value = "given")]
     pub isolate: Option<Isolate>,
     /// Longest time a call of an isolated FMU may take [default: 60]

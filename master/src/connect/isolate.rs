@@ -43,7 +43,7 @@ impl Isolated {
             Some(Isolate::Both) => [true; 2],
         };
         if !AVAILABLE {
-            return Err(Error::Input("--isolate is available on Linux only".into()));
+            return Err(Error::Input("--isolate is available on Linux and Windows only".into()));
         }
         let seconds = arguments.timeout.unwrap_or(TIMEOUT);
         let timeout = Duration::try_from_secs_f64(seconds).ok().filter(|timeout| !timeout.is_zero());

@@ -13,7 +13,7 @@ use std::fs::{self, File, OpenOptions, TryLockError};
 use std::io::{self, Read, Seek, Write};
 use std::path::{Path, PathBuf};
 
-use rustix::fs::{fstat, stat};
+use ttb_fmi::platform::identity;
 
 use crate::error::Error;
 use crate::files::PART;
@@ -121,8 +121,8 @@ fn lock(place: &Path) -> Result<File, Refused> {
             Ok(()) => {}
         }
         // Removed between opening and locking: it locks nothing.
-        let (held, there) = (fstat(&file).map_err(io::Error::from)?, stat(place));
-        if there.is_ok_and(|there| (there.st_dev, there.st_ino) == (held.st_dev, held.st_ino)) {
+        let there = File::open(place).and_then(|there| identity(&there));
+        if there.is_ok_and(|there| identity(&file).is_ok_and(|held| held == there)) {
             file.set_len(0)?;
             file.rewind()?;
             writeln!(file, "{}", std::process::id())?;

@@ -165,7 +165,7 @@ impl Answers {
     }
 
     fn load(&mut self, folder: usize, identifier: usize) -> (Answer, u64) {
-        let path = platform::path(&self.payload.read_bytes(0, folder)).to_path_buf();
+        let path = platform::path(&self.payload.read_bytes(0, folder)).into_owned();
         let identifier = String::from_utf8_lossy(&self.payload.read_bytes(folder, identifier)).into_owned();
         let begin = std::time::Instant::now();
         let (status, result) = match (self.version.load)(&path, &identifier) {

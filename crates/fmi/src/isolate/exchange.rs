@@ -75,12 +75,12 @@ impl Exchange {
         let control = Control::new(&memory)?;
         control.sign();
         let payload = Payload::new(&memory, CONTROL, 0, FIRST_DATA)?;
-        let process = Process::start(&isolation, name, &memory)?;
+        let (process, bells) = (Process::start(&isolation, name, &memory)?, memory.bells());
         Ok(Self {
             name: name.to_string(),
             isolation,
             memory,
-            gate: Gate::new(control.clone(), true),
+            gate: Gate::new(control.clone(), bells, true),
             control,
             payload,
             lists: Default::default(),

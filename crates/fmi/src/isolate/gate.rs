@@ -1,12 +1,12 @@
 //! Handshake of two processes over two words: first spin, then sleep.
 //!
 //! A reply that is there within microseconds is met spinning, without a system call on either side. Whoever has spun for
-//! [`SPIN`] in vain says so (`parked`) and sleeps on a futex; only then does the other need a system call to wake it. On few
+//! [`SPIN`] in vain says so (`parked`) and sleeps; only then does the other need a system call to wake it. On few
 //! cores the spinning takes time from the very process that is waited for, hence the short limit; while it helps in
 //! less than half of the cases it is tried only every [`RARELY`]th time, and with one core never.
 
 use super::control::{Control, Side};
-use crate::platform::word;
+use crate::platform::word::Bells;
 use std::sync::atomic::Ordering::{Acquire, Relaxed, SeqCst};
 use std::time::{Duration, Instant};
 
@@ -20,6 +20,7 @@ const RARELY: u32 = 16;
 /// One process's end.
 pub struct Gate {
     control: Control,
+    bells: Bells,
     is_master: bool,
     may_spin: bool,
     waits: u32,
@@ -29,9 +30,9 @@ pub struct Gate {
 
 impl Gate {
     /// The end of the master or the host.
-    pub fn new(control: Control, is_master: bool) -> Self {
+    pub fn new(control: Control, bells: Bells, is_master: bool) -> Self {
         let may_spin = std::thread::available_parallelism().is_ok_and(|cores| cores.get() > 1);
-        Self { control, is_master, may_spin, waits: 0, luck: 1.0 }
+        Self { control, bells, is_master, may_spin, waits: 0, luck: 1.0 }
     }
 
     /// What this process writes.
@@ -50,7 +51,7 @@ impl Gate {
     pub fn signal(&self, n: u32) {
         self.mine().word.store(n, SeqCst);
         if self.theirs().parked.load(SeqCst) != 0 {
-            word::wake(&self.mine().word);
+            self.bells.wake(self.is_master, &self.mine().word);
         }
     }
 
@@ -66,7 +67,7 @@ impl Gate {
         // Either the other sees `parked`, or this sees its word: both are sequentially consistent.
         let seen = theirs.word.load(SeqCst);
         if seen != n {
-            word::wait(&theirs.word, seen, limit);
+            self.bells.wait(!self.is_master, &theirs.word, seen, limit);
         }
         mine.parked.store(0, Relaxed);
         self.has_come(n)

@@ -29,7 +29,7 @@ pub fn host(version: &'static Version) -> Result<(), String> {
     }
     end_with_starter().map_err(fault)?;
     let payload = Payload::new(&memory, CONTROL, 0, FIRST_DATA).map_err(fault)?;
-    let gate = Gate::new(control.clone(), false);
+    let gate = Gate::new(control.clone(), memory.bells(), false);
     let answers = Answers::new(version, memory, control.clone(), payload);
     Host { control, gate, answers }.serve();
     Ok(())

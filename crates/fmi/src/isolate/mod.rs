@@ -12,46 +12,46 @@
 //! [`crate::output`] passes on what it prints.
 //!
 //! A call writes its arguments into the shared memory, counts the request's word up and waits for the reply's word; the
-//! FMU reads and writes values in the shared memory itself. Waiting means spinning for up to 20 µs, then sleeping on a
-//! futex. Value references are sent once and kept, so that a call moves its values only. Calls that give nothing back go with
+//! FMU reads and writes values in the shared memory itself. Waiting means spinning for up to 20 µs, then sleeping (on
+//! Linux on a futex). Value references are sent once and kept, so that a call moves its values only. Calls that give nothing back go with
 //! the next one, and a step brings along the outputs that were read after the last one.
 //!
 //! Whatever the host says is taken for what it is: words from a process whose memory may be spoiled.
 
-#[cfg(target_os = "linux")]
+#[cfg(any(target_os = "linux", windows))]
 mod answers;
-#[cfg(target_os = "linux")]
+#[cfg(any(target_os = "linux", windows))]
 mod call;
-#[cfg(target_os = "linux")]
+#[cfg(any(target_os = "linux", windows))]
 mod control;
-#[cfg(target_os = "linux")]
+#[cfg(any(target_os = "linux", windows))]
 mod exchange;
-#[cfg(target_os = "linux")]
+#[cfg(any(target_os = "linux", windows))]
 mod gate;
-#[cfg(target_os = "linux")]
+#[cfg(any(target_os = "linux", windows))]
 mod host;
-#[cfg(not(target_os = "linux"))]
+#[cfg(not(any(target_os = "linux", windows)))]
 mod nowhere;
-#[cfg(target_os = "linux")]
+#[cfg(any(target_os = "linux", windows))]
 mod payload;
-#[cfg(target_os = "linux")]
+#[cfg(any(target_os = "linux", windows))]
 mod process;
-#[cfg(target_os = "linux")]
+#[cfg(any(target_os = "linux", windows))]
 mod remote;
 mod settings;
-#[cfg(target_os = "linux")]
+#[cfg(any(target_os = "linux", windows))]
 mod verbs;
 
-#[cfg(target_os = "linux")]
+#[cfg(any(target_os = "linux", windows))]
 pub use host::host;
-#[cfg(not(target_os = "linux"))]
+#[cfg(not(any(target_os = "linux", windows)))]
 pub use nowhere::host;
-#[cfg(not(target_os = "linux"))]
+#[cfg(not(any(target_os = "linux", windows)))]
 pub(crate) use nowhere::start;
-#[cfg(target_os = "linux")]
+#[cfg(any(target_os = "linux", windows))]
 pub(crate) use remote::start;
 pub(crate) use settings::Instantiation;
 pub use settings::{Isolation, Listener};
 
 /// Whether FMUs can be isolated on this system.
-pub const AVAILABLE: bool = cfg!(target_os = "linux");
+pub const AVAILABLE: bool = cfg!(any(target_os = "linux", windows));

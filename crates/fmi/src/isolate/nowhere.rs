@@ -12,7 +12,7 @@ use std::time::Duration;
 /// # Errors
 /// Always.
 pub fn host(_version: &'static Version) -> Result<(), String> {
-    Err("isolating FMUs is available on Linux only".into())
+    Err("isolating FMUs is available on Linux and Windows only".into())
 }
 
 /// An isolated instance, which there is none of.
@@ -25,6 +25,6 @@ pub(crate) fn start(
     _isolation: &Isolation,
     _sink: &Sink,
 ) -> Result<(Box<dyn Slave>, Duration), FmuError> {
-    let what = "FMUs can be isolated on Linux only".to_string();
+    let what = "FMUs can be isolated on Linux and Windows only".to_string();
     Err(FmuError::Impossible { instance: wanted.name.to_string(), what })
 }

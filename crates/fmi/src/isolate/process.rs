@@ -23,7 +23,8 @@ impl Process {
         let (output, writer) = Output::new(move |line| listener(&name, line))?;
         let mut command = Command::new(&isolation.program);
         command.args(&isolation.arguments);
-        command.stdin(memory.to_stdin()?).stdout(writer.try_clone()?).stderr(writer);
+        memory.give_to(&mut command)?;
+        command.stdout(writer.try_clone()?).stderr(writer);
         Ok(Self { group: Group::start(&mut command)?, output })
     }
 

@@ -1,18 +1,22 @@
-//! What depends on the operating system, in one place. A port adds modules beside these and nothing elsewhere; where there
-//! is no shared memory with [`memory`]'s promises, FMUs cannot be isolated ([`crate::isolate::AVAILABLE`]).
+//! What depends on the operating system, in one place: `unix` or `windows`, which offer the same. What is beyond that,
+//! shared memory and processes that may be lost ([`crate::isolate::AVAILABLE`]), is there on Linux and on Windows. A port adds
+//! modules beside these and nothing elsewhere.
 
 #[cfg(feature = "import")]
 pub mod image;
 #[cfg(all(feature = "import", target_os = "linux"))]
-pub mod memory;
-#[cfg(all(feature = "import", target_os = "linux"))]
-pub mod process;
+mod linux;
+#[cfg(unix)]
 mod unix;
-#[cfg(all(feature = "import", target_os = "linux"))]
-pub mod watch;
-#[cfg(all(feature = "import", target_os = "linux"))]
-pub mod word;
+#[cfg(windows)]
+mod windows;
 
-pub use unix::*;
 #[cfg(all(feature = "import", target_os = "linux"))]
-pub(crate) use watch::read_until_parent_is_gone;
+pub use linux::{memory, process, word};
+#[cfg(unix)]
+pub use unix::*;
+#[cfg(windows)]
+pub use windows::*;
+
+#[cfg(all(feature = "import", target_os = "linux"))]
+pub(crate) use linux::read_until_parent_is_gone;

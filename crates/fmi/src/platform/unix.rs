@@ -1,13 +1,17 @@
 //! Unix: paths are bytes, libraries are opened by `dlopen`, a process may end without its exit handlers.
 
+use std::borrow::Cow;
 use std::ffi::OsStr;
 use std::os::unix::ffi::OsStrExt;
 use std::path::{Path, PathBuf};
 
 /// The path these bytes mean.
-pub fn path(bytes: &[u8]) -> &Path {
-    Path::new(OsStr::from_bytes(bytes))
+pub fn path(bytes: &[u8]) -> Cow<'_, Path> {
+    Cow::Borrowed(Path::new(OsStr::from_bytes(bytes)))
 }
+
+/// Whether a URI `file://HOST/…` may name a folder of another machine.
+pub const NETWORK_PATHS: bool = false;
 
 /// A path as bytes.
 pub fn bytes(path: &Path) -> &[u8] {
@@ -27,7 +31,7 @@ fn library_at(line: &[u8], code: usize) -> Option<PathBuf> {
     let (from, to) = range.split_once('-')?;
     let (from, to) = (usize::from_str_radix(from, 16).ok()?, usize::from_str_radix(to, 16).ok()?);
     let start = line.iter().position(|b| *b == b'/')?;
-    (from..to).contains(&code).then(|| path(&line[start..]).to_path_buf())
+    (from..to).contains(&code).then(|| path(&line[start..]).into_owned())
 }
 
 #[cfg(feature = "import")]
@@ -37,6 +41,9 @@ pub use import::*;
 mod import {
     use libloading::os::unix::{RTLD_GLOBAL, RTLD_LOCAL, RTLD_NOW};
     use std::ffi::c_int;
+    use std::fs::File;
+    use std::io;
+    use std::os::unix::fs::{FileExt, MetadataExt};
     use std::path::Path;
 
     /// A loaded library; dropping it unloads it.
@@ -56,6 +63,46 @@ mod import {
     unsafe extern "C" {
         fn ttb_exit_now(code: c_int) -> !;
         fn signal(number: c_int, handler: usize) -> usize;
+    }
+
+    /// Variables that name the temporary folder.
+    pub const TEMPORARY_VARIABLES: &[&str] = &["TMPDIR"];
+
+    /// Seconds of CPU that this process has taken so far, all threads.
+    pub fn cpu() -> f64 {
+        let now = rustix::time::clock_gettime(rustix::time::ClockId::ProcessCPUTime);
+        now.tv_sec as f64 + 1e-9 * now.tv_nsec as f64
+    }
+
+    /// Memory of this process, kB; 0 where the kernel does not tell.
+    pub fn resident() -> f64 {
+        let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
+        let line = status.lines().find_map(|line| line.strip_prefix("VmRSS:"));
+        line.and_then(|line| line.split_whitespace().next()?.parse().ok()).unwrap_or(0.0)
+    }
+
+    /// Which file it is: equal for two handles of the same one.
+    ///
+    /// # Errors
+    /// The system does not tell.
+    pub fn identity(file: &File) -> io::Result<(u64, u64)> {
+        file.metadata().map(|found| (found.dev(), found.ino()))
+    }
+
+    /// Writes at the beginning of a file.
+    ///
+    /// # Errors
+    /// The system does not take it.
+    pub fn write_at_begin(file: &File, bytes: &[u8]) -> io::Result<usize> {
+        file.write_at(bytes, 0)
+    }
+
+    /// A folder under another name.
+    ///
+    /// # Errors
+    /// It cannot be linked.
+    pub fn link_folder(folder: &Path, name: &Path) -> io::Result<()> {
+        std::os::unix::fs::symlink(folder, name)
     }
 
     /// A new folder that only this user may enter.

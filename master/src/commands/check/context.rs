@@ -4,10 +4,10 @@
 use std::cell::RefCell;
 use std::fs::{File, OpenOptions};
 use std::io::Write;
-use std::os::unix::fs::{FileExt, MetadataExt};
 use std::path::{Path, PathBuf};
 
 use ttb_fmi::description::ModelDescription;
+use ttb_fmi::platform::{identity, write_at_begin};
 
 use super::finding::Finding;
 
@@ -49,7 +49,7 @@ impl Context {
             }
             // A fixed width overwrites what was longer; a lost note is no reason to stop.
             if let Some(Kept { file, .. }) = &*kept {
-                let _ = file.write_at(format!("{stage:<200}").as_bytes(), 0);
+                let _ = write_at_begin(file, format!("{stage:<200}").as_bytes());
             }
         }
     }
@@ -58,18 +58,18 @@ impl Context {
 /// An open file, and which it is.
 struct Kept {
     file: File,
-    inode: u64,
+    identity: (u64, u64),
 }
 
 impl Kept {
     fn open(path: &Path) -> Option<Self> {
         let file = OpenOptions::new().write(true).create(true).truncate(false).open(path).ok()?;
-        let inode = file.metadata().ok()?.ino();
-        Some(Self { file, inode })
+        let identity = identity(&file).ok()?;
+        Some(Self { file, identity })
     }
 
     /// Whether it is still that one.
     fn is_there(&self) -> bool {
-        self.file.metadata().is_ok_and(|now| now.ino() == self.inode)
+        identity(&self.file).is_ok_and(|now| now == self.identity)
     }
 }

@@ -110,7 +110,7 @@ pub fn resources(context: &Context) -> Result<(), Finding> {
         return Ok(()); // each form takes another instance
     }
     let blank = std::env::temp_dir().join("a blank, ü");
-    let linked = std::os::unix::fs::symlink(&context.folder, &blank).is_ok();
+    let linked = ttb_fmi::platform::link_folder(&context.folder, &blank).is_ok();
     let path = |folder: &std::path::Path| file_uri(&folder.join("resources"))["file://".len()..].to_string();
     let (plain, encoded) = (path(&context.folder), path(&blank));
     let forms = [

@@ -2,7 +2,6 @@
 
 use std::ffi::OsString;
 use std::fs;
-use std::os::unix::process::ExitStatusExt;
 use std::path::Path;
 use std::process::{Command, ExitStatus, Stdio};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -10,7 +9,8 @@ use std::time::{Duration, Instant};
 
 use super::finding::Finding;
 use ttb_fmi::output::Output;
-use ttb_fmi::platform::process::Group;
+use ttb_fmi::platform::TEMPORARY_VARIABLES;
+use ttb_fmi::platform::process::{Ending, Group, ending};
 use ttb_fmi::temporary::Temporary;
 
 use crate::error::Error;
@@ -45,7 +45,8 @@ pub fn run(check: &str, folder: &Path, patience: Duration, preload: &[OsString])
     let program = std::env::current_exe().map_err(Error::io(Path::new("this program")))?;
     let mut command = Command::new(program);
     command.arg("check").arg("--worker").arg(check).arg("--report").arg(file("report")).args(preload).arg(folder);
-    command.current_dir(&cwd).env("TMPDIR", place.path()).stdin(Stdio::null());
+    command.current_dir(&cwd).stdin(Stdio::null());
+    command.envs(TEMPORARY_VARIABLES.iter().map(|name| (name, place.path())));
     let started = Error::io(Path::new("a process for the check"));
     let (status, left, [printed, complained]) =
         watched(&mut command, &file("report.stage"), patience).map_err(started)?;
@@ -157,12 +158,11 @@ fn end(status: Option<ExitStatus>, finished: bool, patience: Duration) -> Option
     let Some(status) = status else {
         return Some(("hang", format!("a call does not return within {} s", patience.as_secs_f64())));
     };
-    match (status.signal(), status.code()) {
-        (None, Some(0)) if finished => None,
-        (Some(6), _) => Some(("abort", "it aborts the process (SIGABRT)".into())),
-        (Some(11), _) => Some(("crash", "it crashes the process (SIGSEGV)".into())),
-        (Some(signal), _) => Some(("crash", format!("it crashes the process (signal {signal})"))),
-        (None, code) => Some(("exit", format!("it ends the process with exit code {}", code.unwrap_or_default()))),
+    match ending(status) {
+        Ending::Code(0) if finished => None,
+        Ending::Code(code) => Some(("exit", format!("it ends the process with exit code {code}"))),
+        Ending::Abort(how) => Some(("abort", format!("it aborts the process ({how})"))),
+        Ending::Crash(how) => Some(("crash", format!("it crashes the process ({how})"))),
     }
 }
 

@@ -3,6 +3,7 @@
 use std::time::{Duration, Instant};
 
 use ttb_contract::finite::not_finite;
+use ttb_fmi::platform::resident;
 
 use super::context::Context;
 use super::drive::{Drive, open};
@@ -66,11 +67,4 @@ pub fn growth(memory: &[f64]) -> Option<String> {
     let steady = per_step(middle - early) > GROWTH_PER_STEP && per_step(late - middle) > GROWTH_PER_STEP;
     let total = late - early;
     (steady && total > GROWTH).then(|| format!("{total:.0} kB more after {} times", n - n / 3))
-}
-
-/// Memory of this process in kB.
-pub fn resident() -> f64 {
-    let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
-    let line = status.lines().find_map(|line| line.strip_prefix("VmRSS:"));
-    line.and_then(|line| line.split_whitespace().next()?.parse().ok()).unwrap_or(0.0)
 }

@@ -2,10 +2,12 @@
 
 use std::time::{Duration, Instant};
 
+use ttb_fmi::platform::resident;
+
 use super::context::Context;
 use super::drive::{Drive, open, reference};
 use super::finding::Finding;
-use super::run::{growth, resident};
+use super::run::growth;
 
 /// Steps before the state is saved, steps that are repeated, steps after which it is restored again.
 const BEFORE: usize = 10;

@@ -172,6 +172,27 @@ fn below(ancestor: i32) -> BTreeSet<i32> {
     found
 }
 
+/// How a process came to its end.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Ending {
+    /// By itself, with an exit code.
+    Code(i32),
+    /// It aborted itself; how.
+    Abort(String),
+    /// It crashed; by what.
+    Crash(String),
+}
+
+/// How a process came to its end.
+pub fn ending(status: ExitStatus) -> Ending {
+    match (status.signal(), status.code()) {
+        (Some(6), _) => Ending::Abort("SIGABRT".into()),
+        (Some(11), _) => Ending::Crash("SIGSEGV".into()),
+        (Some(signal), _) => Ending::Crash(format!("signal {signal}")),
+        (None, code) => Ending::Code(code.unwrap_or_default()),
+    }
+}
+
 /// How a process ended, in words that follow "its process".
 pub fn how_it_ended(status: ExitStatus) -> String {
     match (status.signal(), status.code()) {

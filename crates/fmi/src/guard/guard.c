@@ -1,4 +1,4 @@
-/* Calls into foreign code, and what such code may have done to the process; see guard.rs. */
+/* Calls into foreign code, and what such code may have done to the process; see mod.rs. */
 #define _GNU_SOURCE
 #include <dlfcn.h>
 #include <fcntl.h>
@@ -16,6 +16,7 @@
 #include <sys/syscall.h>
 #include <ucontext.h>
 #endif
+#include "control.h"
 
 /* Where a call of this thread goes on if the foreign code ends the process; NULL outside of such calls. */
 static _Thread_local jmp_buf *place;
@@ -31,37 +32,6 @@ static int is_main_thread(void) {
     return pthread_main_np();
 #endif
 }
-
-#if defined(__x86_64__)
-typedef struct { unsigned simd; unsigned short x87; } control_t;
-static void read_control(control_t *c) {
-    __asm__ volatile("stmxcsr %0" : "=m"(c->simd));
-    __asm__ volatile("fnstcw %0" : "=m"(c->x87));
-}
-static int write_control(const control_t *c) {
-    control_t now;
-    read_control(&now);
-    int changed = ((now.simd ^ c->simd) & ~0x3fu) || now.x87 != c->x87; /* the lowest bits are what has happened */
-    if (changed) {
-        __asm__ volatile("fnclex\n\tfldcw %0" : : "m"(c->x87));
-        __asm__ volatile("ldmxcsr %0" : : "m"(c->simd));
-    }
-    return changed;
-}
-#elif defined(__aarch64__)
-typedef struct { uint64_t fpcr; } control_t;
-static void read_control(control_t *c) { __asm__ volatile("mrs %0, fpcr" : "=r"(c->fpcr)); }
-static int write_control(const control_t *c) {
-    control_t now;
-    read_control(&now);
-    if (now.fpcr != c->fpcr) __asm__ volatile("msr fpcr, %0" : : "r"(c->fpcr));
-    return now.fpcr != c->fpcr;
-}
-#else
-typedef struct { int none; } control_t;
-static void read_control(control_t *c) { c->none = 0; }
-static int write_control(const control_t *c) { return c->none; }
-#endif
 
 /* Whether this is a child that foreign code has made by fork: it must not come back to us, who would go on twice. */
 static volatile sig_atomic_t is_copy;
@@ -193,7 +163,7 @@ void ttb_surroundings_keep(const char *folder, int sentinel) {
     kept.is_kept = 1;
 }
 
-/* Puts back what has changed, and says what: bits in the order of CHANGES in guard.rs. */
+/* Puts back what has changed, and says what: bits in the order of CHANGES in mod.rs. */
 int ttb_surroundings_restore(void) {
     struct stat here;
     struct sigaction action;

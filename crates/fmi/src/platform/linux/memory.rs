@@ -1,12 +1,13 @@
 //! Shared memory: a file without name, mapped by both processes. It goes with the last of them, however they end.
 
+use super::word::Bells;
 use rustix::fs::{MemfdFlags, SealFlags, fcntl_add_seals, fcntl_get_seals, ftruncate, memfd_create};
 use rustix::io::fcntl_dupfd_cloexec;
 use rustix::mm::{MapFlags, ProtFlags, mmap, munmap};
 use std::fs::File;
 use std::io;
 use std::os::fd::OwnedFd;
-use std::process::Stdio;
+use std::process::{Command, Stdio};
 use std::ptr::NonNull;
 
 /// A file in memory that may grow and not shrink, so that touching a mapping of it never fails.
@@ -32,9 +33,15 @@ impl Shared {
         Ok(Some(Self(taken)))
     }
 
-    /// As standard input of another process.
-    pub fn to_stdin(&self) -> io::Result<Stdio> {
-        Ok(Stdio::from(self.0.try_clone()?))
+    /// Gives it to a process that is going to be started, as its standard input.
+    pub fn give_to(&self, command: &mut Command) -> io::Result<()> {
+        command.stdin(Stdio::from(self.0.try_clone()?));
+        Ok(())
+    }
+
+    /// What wakes the processes that share it.
+    pub fn bells(&self) -> Bells {
+        Bells
     }
 
     /// Makes it longer.
