@@ -1,0 +1,180 @@
+"""What leaves the house for Windows, under Wine: no real Windows was at hand.
+
+Results differ from those of Linux by some units in the last place: `pow`, `exp` and `sin` of the C libraries differ.
+"""
+
+import csv
+import math
+import os
+import subprocess
+import zipfile
+
+import pytest
+from conftest import EXAMPLES, HOSTS, REPOSITORY, has, host_run, only
+
+pytestmark = pytest.mark.skipif(not has("wine", "x86_64-w64-mingw32-gcc"), reason="mingw or Wine is missing")
+# What every Windows has, since 10.
+OF_THE_SYSTEM = {"kernel32.dll", "ntdll.dll", "msvcrt.dll", "advapi32.dll", "userenv.dll", "ws2_32.dll", "bcryptprimitives.dll", "bcrypt.dll", "shell32.dll", "ole32.dll"}
+# Largest difference, relative to the largest value of a column.
+SAME = 1e-6
+
+
+def mingw(target, source, *options):
+    subprocess.run(["x86_64-w64-mingw32-gcc", "-O1", "-o", target, HOSTS / source, *options], check=True)
+    return target
+
+
+@pytest.fixture(scope="session")
+def wine(tmp_path_factory):
+    """Runs a program under Wine, in a prefix that stays in target/wine."""
+    prefix = (REPOSITORY / "target/wine").absolute()
+    environment = dict(os.environ, WINEPREFIX=str(prefix), WINEDEBUG="-all", WINEDLLOVERRIDES="mscoree,mshtml=", LC_ALL="C.UTF-8")
+    if not prefix.exists():
+        prefix.parent.mkdir(exist_ok=True)
+        subprocess.run(["wineboot", "--init"], check=True, env=environment, capture_output=True, timeout=300)
+
+    def run(*command, expect=0, cwd=None, timeout=300):
+        done = subprocess.run(["wine", *command], env=environment, cwd=cwd, capture_output=True, text=True, timeout=timeout, stdin=subprocess.DEVNULL)
+        assert done.returncode == expect, f"{command} ended with {done.returncode}\n{done.stdout}{done.stderr}"
+        return done
+
+    yield run
+    subprocess.run(["wineserver", "--kill"], env=environment, timeout=60)
+
+
+@pytest.fixture(scope="session")
+def scripts(dist, tmp_path_factory):
+    """The wheel for Windows, laid out as pip does it there, with the library that Wine 8 lacks."""
+    folder = tmp_path_factory.mktemp("Python 3") / "Scripts"
+    folder.mkdir()
+    with zipfile.ZipFile(only(dist, "*win_amd64.whl")) as archive:
+        for name in archive.namelist():
+            if "/scripts/" in name:
+                (folder / name.rsplit("/", 1)[1]).write_bytes(archive.read(name))
+    mingw(folder / "bcryptprimitives.dll", "bcryptprimitives.c", "-shared", "-ladvapi32")
+    return folder
+
+
+@pytest.fixture(scope="session")
+def ttb(wine, scripts):
+    """ttb.exe."""
+    return lambda *arguments, **options: wine(scripts / "ttb.exe", *arguments, **options)
+
+
+@pytest.fixture(scope="session")
+def windows_host(scripts):
+    return mingw(scripts / "host.exe", "host.c")
+
+
+def table(path):
+    """Columns of a CSV file."""
+    with open(path, newline="") as file:
+        rows = list(csv.reader(file))
+    return {name: [float(row[i]) for row in rows[1:]] for i, name in enumerate(rows[0])}
+
+
+def assert_same(found, expected):
+    """Same columns, same rows, and values as close as SAME."""
+    found, expected = table(found), table(expected)
+    assert list(found) == list(expected)
+    for name, values in expected.items():
+        size = max(map(abs, values))
+        worst = max(abs(a - b) for a, b in zip(found[name], values, strict=True))
+        assert worst <= SAME * size and math.isfinite(worst), f"{name}: {worst / size:.1e}"
+
+
+def test_the_libraries_need_nothing_but_windows(fmus, scripts):
+    """No libgcc, no winpthread, no runtime of another compiler; all functions of FMI 2.0 are there."""
+    for path in [scripts / "ttb.exe", *(fmu.library("win64") for fmu in fmus.values())]:
+        lines = subprocess.run(["x86_64-w64-mingw32-objdump", "-p", path], check=True, capture_output=True, text=True).stdout.splitlines()
+        names = {line.split(":", 1)[1].strip().lower() for line in lines if "DLL Name:" in line}
+        assert {name for name in names if not name.startswith("api-ms-win-")} <= OF_THE_SYSTEM, path
+        functions = {line.split()[-1] for line in lines if line.split() and line.split()[-1].startswith("fmi2")}
+        assert path.suffix == ".exe" or len(functions) == 44
+
+
+@pytest.mark.parametrize("name", ["Bridge", "TrainTrack"])
+def test_a_library_runs_in_a_host_in_c_as_on_linux(name, fmus, wine, windows_host, linux_host):
+    """Resources by URI, and beside the library; loaded and unloaded several times."""
+    fmu = fmus[name]
+    expected = host_run([linux_host], fmu, "linux64", "")
+    line = [windows_host, f"Z:{fmu.library('win64')}", fmu.guid]
+    for uri in (f"file:///Z:{fmu.folder}/resources", ""):
+        version, status, once, again = wine(*line, uri, *fmu.arguments(), "5", "0.001").stdout.split()
+        assert (version, status, once) == ("2.0", "0", again)
+        assert math.isclose(float(once), expected, rel_tol=1e-9)
+
+
+def test_libcosim_for_windows_runs_both_fmus(fmus, wine, scripts, linux_host, tmp_path):
+    """The build that its developers publish, made by another compiler."""
+    place = REPOSITORY / "target/libcosim-windows"
+    if not list(place.glob("*.whl")):
+        command = ["python3", "-m", "pip", "download", "--quiet", "--no-deps", "--only-binary=:all:", "--platform=win_amd64", "--dest", place, "libcosimpy==0.0.6"]
+        if subprocess.run(command, capture_output=True, timeout=300).returncode != 0:
+            pytest.skip("libcosimpy for Windows cannot be had")
+    with zipfile.ZipFile(next(place.glob("*.whl"))) as archive:
+        for name in archive.namelist():
+            if name.endswith(".dll"):
+                (tmp_path / name.rsplit("/", 1)[1]).write_bytes(archive.read(name))
+    (tmp_path / "bcryptprimitives.dll").write_bytes((scripts / "bcryptprimitives.dll").read_bytes())
+    host = mingw(tmp_path / "cosim.exe", "cosim.c")
+    for fmu in fmus.values():
+        # The host in C takes one step more.
+        done = wine(host, f"Z:{fmu.path}", *fmu.arguments(), "6", "1000000", cwd=tmp_path)
+        assert math.isclose(float(done.stdout), host_run([linux_host], fmu, "linux64", ""), rel_tol=1e-9)
+
+
+@pytest.mark.parametrize("option", [[], ["--isolate=both"]], ids=["in one process", "isolated"])
+def test_r1_has_the_results_of_linux(option, ttb, r1, tmp_path):
+    """`ttb.exe run`."""
+    ttb("run", EXAMPLES / "r1.json", "-o", tmp_path, "--quiet", *option)
+    assert_same(tmp_path / "results.csv", r1 / "results.csv")
+
+
+def test_fmus_built_on_windows_are_those_built_on_linux(ttb, fmus, tmp_path):
+    """The same program inside, the same scenario: byte for byte."""
+    ttb("build", EXAMPLES / "r1.json", "-o", tmp_path)
+    for fmu in fmus.values():
+        assert (tmp_path / fmu.path.name).read_bytes() == fmu.path.read_bytes()
+
+
+def test_the_check_finds_both_fmus_sound(ttb, fmus):
+    """`ttb.exe check`."""
+    for fmu in fmus.values():
+        ttb("check", fmu.path)
+
+
+def test_a_sweep_gives_the_tables_of_linux(ttb, program, tmp_path):
+    """`ttb.exe sweep`: workers, journal, tables."""
+    arguments = ["sweep", EXAMPLES / "r1.json", "--trains", "ice2", "--speeds", "150:300:25", "--way", "modal", "--quiet"]
+    ttb(*arguments, "-o", tmp_path / "windows")
+    subprocess.run([program, *arguments, "-o", tmp_path / "linux"], check=True, capture_output=True, timeout=120)
+    found, expected = ((tmp_path / system / "peaks.csv").read_text().splitlines() for system in ("windows", "linux"))
+    assert len(found) == len(expected) > 8
+    for a, b in zip(found, expected):
+        for x, y in zip(a.split(","), b.split(","), strict=True):
+            assert x == y or math.isclose(float(x), float(y), rel_tol=SAME)
+
+
+def test_problems_and_exit_codes_are_those_of_linux(ttb, tmp_path):
+    """Paths of Windows in a message."""
+    (tmp_path / "bad.json").write_text('{"trac": 1}')
+    done = ttb("check-scenario", tmp_path / "bad.json", expect=2)
+    assert "did you mean `track`?" in done.stderr
+
+
+def test_an_fmu_that_crashes_is_told_and_results_are_kept(ttb, fmus, tmp_path):
+    """A library that reads at address 0, in a process of its own: exit code 4."""
+    broken = tmp_path / "Broken.fmu"
+    library = mingw(tmp_path / "Bridge.dll", "crash.c", "-shared")
+    with zipfile.ZipFile(fmus["Bridge"].path) as old, zipfile.ZipFile(broken, "w") as new:
+        for name in old.namelist():
+            new.writestr(name, library.read_bytes() if name.endswith(".dll") else old.read(name))
+    done = ttb("run", EXAMPLES / "r1.json", "--bridge", broken, "--isolate", "-o", tmp_path / "out", expect=4)
+    assert "access violation" in done.stderr
+
+
+def test_sizes(fmus, dist):
+    """With the libraries of both systems inside."""
+    assert all((fmu.folder / "binaries/win64").is_dir() and fmu.path.stat().st_size <= 4 * 2**20 for fmu in fmus.values())
+    assert all(path.stat().st_size <= 40 * 2**20 for path in dist.iterdir())
