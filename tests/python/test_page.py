@@ -94,7 +94,7 @@ def test_vehicles_on_an_irregular_track(clean):
     clean.wait("document.querySelector('#sketch svg') && document.querySelector('#speeds').value === '200:300:5'")
     begin = time.monotonic()
     clean.click("#compute")
-    computed(clean, 200)
+    computed(clean, 400)
     took = time.monotonic() - begin
     print(f"21 speeds of an ICE 3 after {took:.1f} s")
     assert clean.evaluate("document.querySelector('#done').textContent").startswith("21 runs")

@@ -167,6 +167,26 @@ def test_a_request_becomes_the_folder_that_a_sweep_writes_and_its_report(page, t
     assert deepest <= largest * 1.001
 
 
+def test_direction_and_limits_of_a_request_are_those_of_a_sweep(page, ttb, tmp_path):
+    text = json.dumps(SCENARIO)
+    limits = {"names": ["tb10621-2014"]}
+    asked = {"scenario": text, "trains": ["hslm-a1"], "speeds": "200", "heading": "both", "limits": limits}
+    plan = page.call("plan", asked=asked)
+    records = page.call("runs", asked=asked, runs=plan["runs"])
+    assert len(records) == 2
+    made = page.call("dossier", asked=asked, records=records, limits=limits, date="x")
+    (tmp_path / "scenario.json").write_text(text)
+    arguments = ["--trains", "hslm-a1", "--speeds", "200", "--heading", "both", "--limits", "tb10621-2014", "-o", "out"]
+    ttb("sweep", "scenario.json", *arguments, cwd=tmp_path)
+    for name in ("runs.csv", "peaks.csv", "envelope.csv"):
+        assert made[name] == (tmp_path / "out" / name).read_text(), name
+    there, back = (page.call("film", asked=asked, runs=[run]) for run in plan["runs"])
+    assert (there["backward"], back["backward"]) == (False, True)
+    # Two equal spans: what one sees first the other sees last.
+    deepest = [max(abs(w) for row in film["displacement"] for w in row) for film in (there, back)]
+    assert deepest[0] == pytest.approx(deepest[1], rel=1e-6)
+
+
 def test_a_closed_tab_and_a_cancelled_job_leave_the_program_answering(page):
     slow = {**SCENARIO, "time": {"step": 1e-4}}
     asked = {"scenario": json.dumps(slow), "speeds": "100:300:10", "way": "coupled"}

@@ -85,6 +85,7 @@ function command(request) {
   if (request.speeds !== undefined) words.push(`--speeds ${request.speeds}`);
   if (request.seeds !== undefined) words.push(`--seeds ${request.seeds}`);
   if (request.way === "coupled") words.push("--way coupled");
+  if (request.heading !== "forward") words.push(`--heading ${request.heading}`);
   if (request.refine) words.push("--refine");
   if (request.variants) words.push(`--variants ${request.variants}`);
   byId("command").textContent = `${words.join(" ")} -o out`;
@@ -117,7 +118,8 @@ async function start(event) {
   running = controller;
   busy(true);
   const { scenario, request } = collect(axles);
-  const asked = { scenario: JSON.stringify(scenario, null, 2), ...request };
+  const judges = { names: limits(), own: shown.ownLimits };
+  const asked = { scenario: JSON.stringify(scenario, null, 2), ...request, limits: judges };
   const begin = performance.now();
   try {
     tell("The plan is being made …");
@@ -128,7 +130,6 @@ async function start(event) {
     };
     progress(0, plan.runs.length);
     const records = await compute(engine, asked, plan, progress, controller.signal);
-    const judges = { names: limits(), own: shown.ownLimits };
     const outcome = await engine.long("outcome", { asked, records: lean(records), limits: judges }, controller.signal);
     tell(`${outcome.runs} ${outcome.runs === 1 ? "run" : "runs"} in ${((performance.now() - begin) / 1000).toFixed(1)} s`);
     byId("stale").hidden = true;

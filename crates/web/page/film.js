@@ -92,7 +92,8 @@ function moment(film, k, bearings, width, factor) {
   svg.append(element("polyline", { points: line.map(([place]) => `${x(place).toFixed(1)},${y(place).toFixed(1)}`).join(" "), fill: "none", stroke: "var(--deck)", "stroke-width": 4 }));
   for (const bearing of bearings) svg.append(element("polygon", { points: `${x(bearing)},${rail + 3} ${x(bearing) - 6},${rail + 14} ${x(bearing) + 6},${rail + 14}`, fill: "none", stroke: "var(--text)" }));
   for (const behind of film.axles) {
-    const place = film.front[k] - behind;
+    const run = film.front[k] - behind;
+    const place = film.backward ? length - run : run;
     if (x(place) < margin || x(place) > width - margin) continue;
     const top = y(place);
     svg.append(element("line", { x1: x(place), x2: x(place), y1: top - 34, y2: top - 6, stroke: "var(--accent)", "stroke-width": 1.6 }));

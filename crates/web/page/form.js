@@ -36,6 +36,7 @@ export function empty() {
   fields.get("seeds").input.value = "1";
   fields.get("shortest").input.value = "3";
   fields.get("longest").input.value = "80";
+  fields.get("heading").input.value = "forward";
   for (const id of ["axles", "cars"]) byId(id).value = "";
   arrange();
 }
@@ -142,7 +143,7 @@ export function collect(axles) {
 
 function demand(scenario, axles) {
   const [speeds, vehicles] = [text("speeds"), acts() === "vehicles"];
-  const request = { trains: [], way: vehicles ? "coupled" : "auto", refine: fields.get("refine").input.checked, variants: fields.get("variants").input.checked ? "bounds" : "" };
+  const request = { trains: [], heading: text("heading"), way: vehicles ? "coupled" : "auto", refine: fields.get("refine").input.checked, variants: fields.get("variants").input.checked ? "bounds" : "" };
   if (speeds !== "") request.speeds = speeds;
   const first = Number(/^[\d.]+/.exec(speeds)?.[0]);
   const rest = { ...(scenario.train ?? {}) };
@@ -234,6 +235,7 @@ export function fill(scenario, request = {}) {
   document.querySelector(`input[name=acts][value=${loads ? "loads" : "vehicles"}]`).checked = true;
   if (Array.isArray(scenario.train?.forces)) byId("axles").value = `x,load\n${scenario.train.forces.map(([x, load]) => `${x},${load / 1000}`).join("\n")}`;
   if (request.trains?.length) show("trains", request.trains.join(", "));
+  show("heading", request.heading ?? scenario.train?.heading ?? "forward");
   show("speeds", request.speeds ?? scenario.train?.speed?.km_h);
   fields.get("refine").input.checked = Boolean(request.refine);
   fields.get("variants").input.checked = Boolean(request.variants);

@@ -29,7 +29,9 @@ pub struct Film {
     title: String,
     /// s.
     time: Vec<f32>,
-    /// Of the leading axle, m from the bridge's begin.
+    /// Whether the train comes from the bridge's end: its abscissae count from there.
+    backward: bool,
+    /// Of the leading axle, m from the bridge's begin, or from its end.
     front: Vec<f32>,
     /// Axles behind the leading one, m.
     axles: Vec<f64>,
@@ -55,6 +57,7 @@ pub fn film(session: &Session, run: &Run, stop: &AtomicBool) -> Result<Option<Fi
     let plan = &session.expanded.plan;
     let train = &plan.trains[run.train];
     let runner = session.runner()?;
+    let backward = !train.heading.is_forward();
     let title = match run.speed_km_h {
         Some(speed) => format!("{} at {speed} km/h", train.name),
         None => train.name.clone(),
@@ -65,8 +68,9 @@ pub fn film(session: &Session, run: &Run, stop: &AtomicBool) -> Result<Option<Fi
         let settings =
             Settings { stiffness: variant.stiffness_factor, mass: variant.mass_factor, ..Settings::default() };
         if let Ok(bridge) = ModalBridge::new(&checked.bridge, &settings) {
-            let film = modal(title, &bridge, &Passage::new(&bridge, &force, Heading::Forward, None), speed);
-            return Ok(Some(Film { bearings: bearings(&checked.bridge.structure), ..film }));
+            let heading = if backward { Heading::Backward } else { Heading::Forward };
+            let film = modal(title, &bridge, &Passage::new(&bridge, &force, heading, None), speed);
+            return Ok(Some(Film { backward, bearings: bearings(&checked.bridge.structure), ..film }));
         }
     }
     let vehicles = !matches!(train.load, Load::Axles(_));
@@ -77,7 +81,8 @@ pub fn film(session: &Session, run: &Run, stop: &AtomicBool) -> Result<Option<Fi
         Load::Axles(axles) => axles.iter().map(|axle| axle[0]).collect(),
         _ => checked.train_track.offsets(),
     };
-    Ok(Some(of_table(title, &checked, &table, axles, speed)))
+    let backward = if vehicles { backward || !checked.scenario.train.heading.is_forward() } else { backward };
+    Ok(Some(Film { backward, ..of_table(title, &checked, &table, axles, speed) }))
 }
 
 /// Every how many of `n` samples a moment is shown.
@@ -104,6 +109,7 @@ fn modal(title: String, bridge: &ModalBridge, passage: &Passage, speed: f64) -> 
     let time = |row: &usize| *row as f64 * histories.h;
     Film {
         title,
+        backward: false,
         time: rows.iter().map(|row| time(row) as f32).collect(),
         front: rows.iter().map(|row| (speed * time(row)) as f32).collect(),
         axles: passage.train().axles.iter().map(|axle| axle.x).collect(),
@@ -141,6 +147,7 @@ fn of_table(title: String, checked: &Checked, table: &Table, axles: Vec<f64>, sp
     };
     Film {
         title,
+        backward: false,
         time: rows.iter().map(|row| table.time[*row] as f32).collect(),
         front,
         axles,

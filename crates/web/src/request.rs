@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 use ttb_assessment::Criteria;
 use ttb_assessment::criterion::{self, DEFAULT};
+use ttb_campaign::limits;
 use ttb_campaign::list::{self, Written};
 use ttb_campaign::plan::{Plan, Rail, Run};
 use ttb_campaign::request::{Choice, Headings, Request, Variants};
@@ -35,6 +36,10 @@ pub struct Asked {
     pub variants: String,
     /// How runs are computed.
     pub way: Choice,
+    /// In which direction trains cross the bridge.
+    pub heading: Headings,
+    /// Limits by which runs are judged: they decide behind which filters values are made.
+    pub limits: Limits,
 }
 
 impl Asked {
@@ -71,7 +76,7 @@ impl Asked {
             seeds: self.seeds.clone(),
             variants,
             axes: Default::default(),
-            heading: Headings::Forward,
+            heading: self.heading,
             limits: Vec::new(),
             way: self.way,
         }
@@ -125,23 +130,35 @@ pub struct Limits {
 }
 
 impl Limits {
+    /// Their texts as a plan keeps them; none where they are the default set.
+    ///
+    /// # Errors
+    /// A name is not known.
+    pub fn texts(&self) -> Result<Vec<[String; 2]>, Fault> {
+        let default: Vec<String> = DEFAULT.iter().map(|name| (*name).to_string()).collect();
+        let names = if self.names.is_empty() { &default } else { &self.names };
+        if *names == default && self.own.is_none() {
+            return Ok(Vec::new());
+        }
+        let mut texts = Vec::new();
+        for name in names {
+            match criterion::text(name) {
+                Some(text) => texts.push([name.clone(), text.to_string()]),
+                None => {
+                    let problems = Criteria::bundled(&[name]).err().unwrap_or_default();
+                    return Err(Fault::new(problems.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n")));
+                }
+            }
+        }
+        texts.extend(self.own.clone().map(|own| ["limits.json".into(), own]));
+        Ok(texts)
+    }
+
     /// The criteria, as `ttb report --limits` takes them.
     ///
     /// # Errors
     /// All problems of names and text.
     pub fn criteria(&self) -> Result<Criteria, Fault> {
-        let told = |problems: Vec<criterion::LimitsProblem>| {
-            Fault::new(problems.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n"))
-        };
-        let mut texts = Vec::new();
-        let default = DEFAULT.iter().map(|name| (*name).to_string()).collect();
-        for name in if self.names.is_empty() { &default } else { &self.names } {
-            match criterion::text(name) {
-                Some(text) => texts.push((name.as_str(), text)),
-                None => return Err(Criteria::bundled(&[name]).err().map_or_else(|| Fault::new(name), told)),
-            }
-        }
-        texts.extend(self.own.as_deref().map(|own| ("limits.json", own)));
-        Criteria::read(texts).map_err(told)
+        Ok(limits::Limits { texts: self.texts()? }.criteria()?)
     }
 }

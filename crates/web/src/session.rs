@@ -6,6 +6,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use ttb_campaign::coupled::Source;
 use ttb_campaign::expand::{self, Expanded};
+use ttb_campaign::limits::Limits;
 use ttb_campaign::runner::Kept;
 use ttb_campaign::{Compute, Computed, Record, Run, Runner};
 use ttb_passage::{ModalBridge, Refused, Settings};
@@ -40,7 +41,11 @@ impl Session {
         let modal = |checked: &Checked| {
             !matches!(ModalBridge::new(&checked.bridge, &Settings::default()), Err(Refused::NotDiagonal))
         };
-        let expanded = expand::of_source(&asked.request(), source, SCENARIO.into(), VERSION, &modal)?;
+        let limits = Limits { texts: asked.limits.texts()? };
+        limits.criteria()?;
+        let mut expanded = expand::of_source(&asked.request(), source, SCENARIO.into(), VERSION, &modal)?;
+        expanded.plan.values = limits.values(&expanded.facts);
+        expanded.plan.limits = limits.texts;
         room.plan(&expanded)?;
         Ok(Self { asked, expanded, kept: Kept::default() })
     }

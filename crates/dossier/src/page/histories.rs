@@ -84,9 +84,12 @@ fn of_run(opened: &Opened, verdict: &Verdict) -> Option<Passage> {
 fn of_sweep(opened: &Opened, verdict: &Verdict, modal: Option<&ModalBridge>) -> Option<Passage> {
     let modal = modal.filter(|_| verdict.quantity == "deck.acceleration" && verdict.variant.is_none())?;
     let entries = opened.plan.as_ref()?["trains"].as_array()?;
-    let train = entries.iter().filter_map(force_train).find(|train| Some(&train.name) == verdict.train.as_ref())?;
+    let entry = entries.iter().find(|entry| entry["name"].as_str() == verdict.train.as_deref())?;
+    let train = force_train(entry)?;
+    let backward = entry["heading"].as_str() == Some("backward");
+    let heading = if backward { Heading::Backward } else { Heading::Forward };
     let speed = verdict.speed_km_h? / 3.6;
-    let passage = ttb_passage::Passage::new(modal, &train, Heading::Forward, None);
+    let passage = ttb_passage::Passage::new(modal, &train, heading, None);
     let histories = passage.histories(speed);
     let accelerations: Vec<(usize, f64)> = modal
         .outputs()
@@ -108,7 +111,8 @@ fn of_sweep(opened: &Opened, verdict: &Verdict, modal: Option<&ModalBridge>) -> 
     let stride = n.div_ceil(TIMES).max(1);
     let rows: Vec<usize> = (0..n).step_by(stride).collect();
     let length = modal.length();
-    let paths = train.axles.iter().map(|axle| [[axle.x / speed, 0.0], [(axle.x + length) / speed, length]]).collect();
+    let [begin, end] = if backward { [length, 0.0] } else { [0.0, length] };
+    let paths = train.axles.iter().map(|axle| [[axle.x / speed, begin], [(axle.x + length) / speed, end]]).collect();
     let space_time = SpaceTime {
         x: places.iter().map(|(_, x)| *x).collect(),
         time: rows.iter().map(|i| time[*i]).collect(),
