@@ -3,6 +3,7 @@
 //! ```text
 //! Q = N cos γ of both wheels of an axle, from the plane equilibrium with   F = 2 (δ/G′)^{3/2},  G′ = G/cos^{5/3}γ,  r + g(D)
 //! D = −(v_d + φ_d h_h + (a_R − a_L)/2)                  the rails spread under the wheels' lateral forces Q g′
+//! g(D) − φ_d (y_r − u_c)  in place of g(D)              and roll under contacts beside their axes
 //! ```
 //!
 //! D and Q are found in turn; a few rounds, since the spread changes Q in the last digits only.
@@ -55,7 +56,7 @@ pub fn rest(
     let mut held = deck.to_vec();
     (0..3).for_each(|block| held[(2 * block + 1) * supports..(2 * block + 2) * supports].fill(0.0));
     let axles = system.wheels.points.len();
-    let mut d = vec![0.0; axles];
+    let (mut d, mut roll) = (vec![0.0; axles], vec![0.0; axles]);
     let mut wheels = vec![[0.0; 4]; axles];
     let gauge = |system: &SpaceSystem, axle: usize| {
         let [left, right] = system.ports[axle / AXLES].places[axle % AXLES].irregularity;
@@ -66,7 +67,8 @@ pub fn rest(
         for (axle, d) in d.iter().enumerate() {
             let tread = system.ports[axle / AXLES].contact.tread(*d);
             let cos = 1.0 / (1.0 + tread.slope * tread.slope).sqrt();
-            plane.wheels.raised[axle] = tread.distance;
+            let arm = system.ports[axle / AXLES].lever.rail - tread.across;
+            plane.wheels.raised[axle] = tread.distance - roll[axle] * arm;
             laws.push(Law::of_wheels(tread.hertz * cos.powf(-5.0 / 3.0), plane.contacts.laws()[axle].load()));
         }
         plane.contacts.replace(laws);
@@ -80,13 +82,13 @@ pub fn rest(
         let mut largest: f64 = 0.0;
         state.ports.iter_mut().for_each(|part| part.fill(0.0));
         press(system, &wheels, &held, state);
-        for (axle, d) in d.iter_mut().enumerate() {
+        for (axle, (d, roll)) in d.iter_mut().zip(&mut roll).enumerate() {
             let at = ports_before(system, axle) + FIRST_RAIL;
             let head = system.ports[axle / AXLES].lever.head;
             let spread = state.ports[1][at + 4] + state.ports[1][at + 5] * head;
             let new = -(spread + gauge(system, axle));
-            largest = largest.max((new - *d).abs());
-            *d = new;
+            largest = largest.max((new - *d).abs()).max((state.ports[1][at + 5] - *roll).abs());
+            (*d, *roll) = (new, state.ports[1][at + 5]);
         }
         if largest <= STEADY {
             break;

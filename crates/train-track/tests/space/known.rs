@@ -87,3 +87,16 @@ fn the_rails_head_gives_way_by_its_known_distance() {
         assert!((head - expected).abs() < 6e-5, "{part}: {head} instead of {expected} mm");
     }
 }
+
+/// Without creep, at rest on straight track: every wheel carries an eighth of the car, though rails spread and roll.
+#[test]
+fn wheels_at_rest_share_the_cars_weight() {
+    let mut spec = spec("manchester", 40.0);
+    space(&mut spec).contact.creep = Creep::None;
+    let weight = Car::new(&space(&mut spec).cars[0]).unwrap().weight.iter().sum::<f64>();
+    let mut instance = started(spec);
+    for name in ["wheel[1].left.vertical_force", "wheel[4].right.vertical_force"] {
+        let q = value(&mut instance, name);
+        assert!((8.0 * q / weight - 1.0).abs() < 1e-9, "{name}: {q} of {weight}");
+    }
+}
