@@ -12,6 +12,7 @@ pub mod facts;
 pub mod filter;
 pub mod index;
 pub mod judge;
+mod load_case;
 pub mod peak;
 pub mod percentile;
 pub mod reduce;

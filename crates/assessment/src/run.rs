@@ -6,9 +6,9 @@ use serde::{Deserialize, Serialize};
 
 use crate::amplification::phi_dyn;
 use crate::filter::RAW;
+use crate::load_case::Statics;
 use crate::peak::quantity::{DECK_DISPLACEMENT, PHI_DYN};
 use crate::peak::{Peak, Statistic};
-use crate::statics::Statics;
 
 /// What loads the bridge.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]

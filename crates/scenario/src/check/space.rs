@@ -21,7 +21,8 @@ pub(super) fn check(pieces: &Pieces, resolved: &Resolved, report: &mut Report) {
         return;
     }
     if let Some(train) = pieces.train.as_ref().filter(|train| !train.heading.is_forward()) {
-        let rule = "must be forward in space: a train from the other end has its right side where the bridge has its left";
+        let rule =
+            "must be forward in space: a train from the other end has its right side where the bridge has its left";
         report.problem("$.train.heading", rule, format!("{:?}", train.heading).to_lowercase());
     }
     if let Some(spatial) = &resolved.spatial {
