@@ -115,3 +115,12 @@ def test_compare_says_that_it_is_plane(ttb, space, tmp_path):
     """Exit code 2."""
     done = ttb("compare", space / "scenario.json", "-o", tmp_path / "out", expect=2)
     assert "$.space: ttb compare knows plane runs only" in done.stderr
+
+
+def test_the_report_judges_what_a_plane_run_leaves_open(ttb, space):
+    """Y/Q and Prud'homme over 2 m."""
+    ttb("report", space / "out")
+    verdicts = json.loads((space / "out" / "verdicts.json").read_text())["verdicts"]
+    for criterion in ("derailment", "track-shift"):
+        [verdict] = [one for one in verdicts if one["criterion"] == criterion]
+        assert verdict["value"] is not None and verdict["limit"] is not None, verdict

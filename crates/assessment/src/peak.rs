@@ -54,6 +54,18 @@ pub mod quantity {
     pub const SPERLING_CONTINUOUS: &str = "body.sperling-wz";
     /// The same of the whole record.
     pub const SPERLING_CONTINUOUS_WHOLE: &str = "body.sperling-wz-whole";
+    /// Twist of the track by the deck on 3 m, m.
+    pub const DECK_TWIST: &str = "deck.twist";
+    /// Horizontal rotation of a deck's end, rad; a run in space.
+    pub const DECK_HORIZONTAL_ROTATION: &str = "deck.horizontal-rotation";
+    /// Derailment quotient Y/Q of a wheel; a run in space.
+    pub const DERAILMENT: &str = "wheel.derailment";
+    /// Lateral force ΣY of a wheelset on the track, N; static value 2Q₀/3.
+    pub const TRACK_SHIFT: &str = "wheel.track-shift";
+    /// Lateral acceleration of a car body, m/s².
+    pub const BODY_LATERAL: &str = "body.lateral-acceleration";
+    /// Sperling's lateral index of a car body: the greatest of all pieces of 5 s.
+    pub const SPERLING_LATERAL: &str = "body.sperling-lateral";
     /// Mean comfort N_MV, vertical part.
     pub const COMFORT_N_MV: &str = "body.comfort-n-mv";
     /// Greatest dynamic over greatest static value, less 1.

@@ -27,7 +27,7 @@ fn a_wheel_that_lifts_off_shows_both_the_filtered_value_and_its_losses() {
     force[300..310].fill(0.0);
     force[1000..1021].fill(0.0);
     let position: Vec<f64> = time.iter().map(|t| 10.0 + 50.0 * t).collect();
-    let axles = vec![AxleHistory { number: 3, force, position, static_load: 160e3 }];
+    let axles = vec![AxleHistory { number: 3, force, position, static_load: 160e3, ..AxleHistory::default() }];
     let found = reduced(&Histories { time, axles, bridge: Some([50.0, 80.0]), ..Histories::default() });
     let unloading = |filter: &str| row(&found, "wheel.unloading", filter, Statistic::Max, "3").value;
     assert_eq!(unloading("raw"), 1.0);
@@ -47,7 +47,13 @@ fn a_wheel_that_lifts_off_shows_both_the_filtered_value_and_its_losses() {
 
 #[test]
 fn a_filter_sees_no_unloading_in_a_load_that_is_there_from_the_beginning() {
-    let axles = vec![AxleHistory { number: 1, force: vec![100e3; 500], position: vec![], static_load: 100e3 }];
+    let axles = vec![AxleHistory {
+        number: 1,
+        force: vec![100e3; 500],
+        position: vec![],
+        static_load: 100e3,
+        ..AxleHistory::default()
+    }];
     let found = reduced(&Histories { time: time(500, 1e-3), axles, ..Histories::default() });
     for filter in ["raw", "butterworth-4-20Hz-zero", "butterworth-4-20Hz-causal"] {
         assert!(row(&found, "wheel.unloading", filter, Statistic::Max, "1").value.abs() < 1e-12);
@@ -63,6 +69,7 @@ fn a_body_is_judged_at_its_centre_and_over_its_bogies() {
         acceleration: tone(1.2, 0.5),
         pitch_acceleration: tone(1.2, -0.1),
         half_base: Some(8.0),
+        ..CarHistory::default()
     };
     let found = reduced(&Histories { time: time.clone(), cars: vec![car], ..Histories::default() });
     let body = |place| row(&found, "body.acceleration", "raw", Statistic::AbsMax, place).value;

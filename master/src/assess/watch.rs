@@ -6,10 +6,12 @@
 use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 
-use ttb_assessment::reduce::{AxleHistory, CarHistory, Histories, PointHistory, acceleration};
+use ttb_assessment::reduce::{AxleHistory, CarHistory, Histories, LATERAL, PointHistory, SHIFT, SIDES, acceleration};
 use ttb_campaign::points::deck_points;
+use ttb_contract::Component;
 use ttb_scenario::Checked;
 use ttb_scenario::spec::{BridgeSpec, Vehicle};
+use ttb_scenario::types::Direction;
 use ttb_session::column::Column;
 use ttb_session::{Begin, Moment, Observer, Of, Quantity, RunError};
 
@@ -36,8 +38,13 @@ impl Supports {
 }
 
 fn is_motion(column: &Column) -> bool {
-    column.instance.is_none() && matches!(column.quantity, Quantity::Displacement | Quantity::Velocity)
+    let own = matches!(column.quantity, Quantity::Displacement | Quantity::Velocity);
+    column.instance.is_none() && (own || [ROTATION, SWAY].contains(&column.quantity.name()))
 }
+
+/// Motions of the deck in space under a support.
+const ROTATION: &str = Component::Roll.position();
+const SWAY: &str = Component::Lateral.position();
 
 struct Kept {
     at: usize,
@@ -50,8 +57,14 @@ fn is_judged(column: &Column, deck: &BTreeMap<usize, f64>) -> bool {
     match column.of {
         Of::Support(number) => deck.contains_key(&number) && is_motion(column),
         Of::Point(_) => matches!(column.quantity, Q::Displacement | Q::Acceleration | Q::Moment),
-        Of::Wheel(_) => matches!(column.quantity, Q::ContactForce | Q::Position),
-        Of::Car(_) => matches!(column.quantity, Q::Acceleration | Q::PitchAcceleration),
+        Of::Wheel(_) => {
+            matches!(column.quantity, Q::ContactForce | Q::Position)
+                || column.quantity.name() == SHIFT
+                || SIDES.iter().flatten().any(|name| column.quantity.name() == *name)
+        }
+        Of::Car(_) => {
+            matches!(column.quantity, Q::Acceleration | Q::PitchAcceleration) || column.quantity.name() == LATERAL
+        }
         _ => false,
     }
 }
@@ -115,6 +128,14 @@ impl Watch {
                         _ => point.moment = values,
                     }
                 }
+                Of::Support(number) if [ROTATION, SWAY].contains(&column.quantity.name()) => {
+                    let supports = &mut histories.supports;
+                    if let Some(x) = self.deck.get(number).filter(|x| supports.x.last().is_none_or(|last| *x > last)) {
+                        supports.x.push(*x);
+                    }
+                    let turns = column.quantity.name() == ROTATION;
+                    if turns { &mut supports.rotation } else { &mut supports.lateral }.push(values);
+                }
                 Of::Support(number) => {
                     let x = self.deck.get(number).copied();
                     let point =
@@ -131,11 +152,22 @@ impl Watch {
                         |axle| axle.number == *number,
                         || AxleHistory { number: *number, ..AxleHistory::default() },
                     );
-                    if column.quantity == Quantity::ContactForce {
-                        axle.static_load = known.or_else(|| values.first().copied()).unwrap_or(0.0);
-                        axle.force = values;
-                    } else {
-                        axle.position = values;
+                    match &column.quantity {
+                        Quantity::ContactForce => {
+                            axle.static_load = known.or_else(|| values.first().copied()).unwrap_or(0.0);
+                            axle.force = values;
+                        }
+                        Quantity::Position => axle.position = values,
+                        other if other.name() == SHIFT => axle.sides.shift = values,
+                        other => {
+                            for (side, [lateral, vertical]) in SIDES.into_iter().enumerate() {
+                                if other.name() == lateral {
+                                    axle.sides.lateral[side].clone_from(&values);
+                                } else if other.name() == vertical {
+                                    axle.sides.vertical[side].clone_from(&values);
+                                }
+                            }
+                        }
                     }
                 }
                 Of::Car(number) => {
@@ -148,10 +180,10 @@ impl Watch {
                         |car| car.number == *number,
                         || CarHistory { number: *number, half_base: base, ..CarHistory::default() },
                     );
-                    if column.quantity == Quantity::Acceleration {
-                        car.acceleration = values;
-                    } else {
-                        car.pitch_acceleration = values;
+                    match &column.quantity {
+                        Quantity::Acceleration => car.acceleration = values,
+                        Quantity::PitchAcceleration => car.pitch_acceleration = values,
+                        _ => car.lateral_acceleration = values,
                     }
                 }
                 _ => {}
@@ -171,10 +203,10 @@ fn on_deck(bridge: &BridgeSpec) -> BTreeMap<usize, f64> {
     deck_points(&bridge.structure).into_iter().filter_map(nearest).collect()
 }
 
-/// Whether a point carries track: by its abscissa; a node of a model may be anywhere. Of a foreign bridge every point counts.
+/// Whether a point carries track and moves down: by its abscissa; a node of a model may be anywhere. Of a foreign bridge every point counts.
 fn belongs_to_deck(name: &str, checked: Option<&Checked>) -> bool {
     let known = checked.and_then(|checked| checked.bridge.points.iter().find(|point| point.name == *name));
-    known.is_none_or(|point| point.node.is_none())
+    known.is_none_or(|point| point.node.is_none() && point.direction != Direction::Y)
 }
 
 /// The member of a list that fits, or a new one.

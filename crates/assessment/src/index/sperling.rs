@@ -4,6 +4,7 @@
 //! A_i = 2/N |Σ_k a_k e^{−2πi f_i k/f_s}|                               lines f_i = i/T, rectangular window
 //! discrete (GB/T 5599)   W_i = 3.57 (A_i³ F(f_i)/f_i)^{0.1},  W = (Σ W_i¹⁰)^{0.1},  A in m/s²
 //!                        F = 0.325 f² (0.5 … 5.9 Hz), 400/f² (5.9 … 20 Hz), 1 above
+//! lateral                F = 0.8 f² (0.5 … 5.4 Hz), 650/f² (5.4 … 26 Hz), 1 above
 //! continuous             W_z = (Σ ½ A_i² B_i²)^{1/6.67},  A in cm/s²
 //!                        B = 0.588 √((1.911 f² + (0.25 f²)²)/((1 − 0.277 f²)² + (1.563 f − 0.0368 f³)²))
 //! ```
@@ -59,12 +60,22 @@ fn amplitude(signal: &[f64], i: usize, n: usize) -> f64 {
 
 /// The discrete index of these lines, amplitudes in m/s².
 pub fn sperling(lines: &[Line]) -> f64 {
+    discrete(lines, [0.325, 5.9, 400.0, 20.0])
+}
+
+/// The discrete index of lateral motion, amplitudes in m/s².
+pub fn sperling_lateral(lines: &[Line]) -> f64 {
+    discrete(lines, [0.8, 5.4, 650.0, 26.0])
+}
+
+/// F = `low` f² below `first` Hz, `high`/f² below `last` Hz, 1 above.
+fn discrete(lines: &[Line], [low, first, high, last]: [f64; 4]) -> f64 {
     let term = |line: &Line| {
         let f = line.frequency;
         let weight = match f {
             _ if !(BAND.0 - 1e-9..=BAND.1 + 1e-9).contains(&f) => 0.0,
-            _ if f < 5.9 => 0.325 * f * f,
-            _ if f < 20.0 => 400.0 / (f * f),
+            _ if f < first => low * f * f,
+            _ if f < last => high / (f * f),
             _ => 1.0,
         };
         // W_i¹⁰ without the tenth root between.
@@ -82,4 +93,20 @@ pub fn sperling_continuous(lines: &[Line]) -> f64 {
         0.5 * (100.0 * line.amplitude).powi(2) * 0.588_f64.powi(2) * upper / lower
     };
     lines.iter().map(term).sum::<f64>().powf(1.0 / 6.67)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// One line: W = 3.57 (A³ F/f)^{0.1}.
+    #[test]
+    fn the_lateral_index_of_a_single_line_is_its_formula() {
+        let amplitude: f64 = 0.3;
+        for (frequency, weight) in [(1.5, 0.8 * 2.25), (8.0, 650.0 / 64.0), (30.0, 1.0)] {
+            let expected = 3.57 * (amplitude.powi(3) * weight / frequency).powf(0.1);
+            let found = sperling_lateral(&[Line { frequency, amplitude }]);
+            assert!((found / expected - 1.0).abs() < 1e-12, "{frequency} Hz: {found} {expected}");
+        }
+    }
 }

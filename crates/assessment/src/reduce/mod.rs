@@ -9,9 +9,11 @@
 //!
 //! What a record is too short or too coarse for is told with its reason, not left out.
 
+mod alignment;
 mod body;
 mod deck;
 mod derivative;
+mod lateral;
 mod wheel;
 
 use std::borrow::Cow;
@@ -25,7 +27,9 @@ use crate::filter::{Butterworth, Filter, Phase, Weighting};
 use crate::peak::{Peak, PlaceKind, Statistic};
 use crate::run::Missing;
 
+pub use alignment::Supports;
 pub use derivative::acceleration;
+pub use lateral::{LATERAL, SHIFT, SIDES, Sides};
 
 /// Histories of one run, one value at every internal step.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -40,6 +44,8 @@ pub struct Histories {
     pub axles: Vec<AxleHistory>,
     /// Cars from the front.
     pub cars: Vec<CarHistory>,
+    /// In space: the deck under the supports.
+    pub supports: Supports,
     /// Where the bridge begins and ends, m, if that is known.
     pub bridge: Option<[f64; 2]>,
 }
@@ -70,6 +76,8 @@ pub struct AxleHistory {
     pub position: Vec<f64>,
     /// Static load of the wheelset, N.
     pub static_load: f64,
+    /// In space: both wheels.
+    pub sides: Sides,
 }
 
 /// A car body.
@@ -81,6 +89,8 @@ pub struct CarHistory {
     pub acceleration: Vec<f64>,
     /// rad/s²; empty if it is not observed.
     pub pitch_acceleration: Vec<f64>,
+    /// In space: to the right at its centre, m/s²; else empty.
+    pub lateral_acceleration: Vec<f64>,
     /// Half of the distance of the bogies, m; none: the centre alone.
     pub half_base: Option<f64>,
 }
@@ -139,8 +149,13 @@ pub fn reduce(histories: &Histories, criteria: &Criteria, facts: &Facts) -> Redu
     }
     for axle in &histories.axles {
         wheel::reduce(axle, histories, record, &asked, &mut out);
+        lateral::axle(axle, record, &asked, &mut out);
     }
-    histories.cars.iter().for_each(|car| body::reduce(car, record, &asked, &mut out));
+    alignment::reduce(&histories.supports, record, &mut out);
+    for car in &histories.cars {
+        body::reduce(car, record, &asked, &mut out);
+        lateral::car(car, record, &asked, &mut out);
+    }
     let found = |missing: &Missing, peaks: &[Peak]| {
         peaks.iter().any(|peak| {
             peak.quantity == missing.quantity
@@ -154,7 +169,9 @@ pub fn reduce(histories: &Histories, criteria: &Criteria, facts: &Facts) -> Redu
 
 /// Filters that are always made.
 fn usual() -> Vec<(&'static str, Filter)> {
-    use crate::peak::quantity::{BODY_ACCELERATION, DECK_ACCELERATION, WHEEL_LOAD, WHEEL_UNLOADING};
+    use crate::peak::quantity::{
+        BODY_ACCELERATION, BODY_LATERAL, DECK_ACCELERATION, DERAILMENT, TRACK_SHIFT, WHEEL_LOAD, WHEEL_UNLOADING,
+    };
     let low_pass = |cut_off_hz, phase| Filter::Butterworth { order: 4, cut_off_hz, phase };
     let both = |quantity, hz| [Phase::Zero, Phase::Causal].map(|phase| (quantity, low_pass(hz, phase)));
     let mut usual = vec![(DECK_ACCELERATION, Filter::Raw)];
@@ -169,6 +186,12 @@ fn usual() -> Vec<(&'static str, Filter)> {
     for curve in [Weighting::WbEn12299, Weighting::Wk] {
         usual.push((BODY_ACCELERATION, Filter::Weighting { curve }));
     }
+    for quantity in [DERAILMENT, TRACK_SHIFT] {
+        usual.push((quantity, Filter::Raw));
+        usual.push((quantity, Filter::SlidingMean { length_m: 2.0 }));
+    }
+    usual.push((BODY_LATERAL, Filter::Raw));
+    usual.push((BODY_LATERAL, Filter::Weighting { curve: Weighting::Wd }));
     usual
 }
 

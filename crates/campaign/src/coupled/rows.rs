@@ -7,10 +7,10 @@ use std::borrow::Cow;
 use std::collections::BTreeMap;
 
 use ttb_assessment::peak::quantity::{DECK_ACCELERATION, DECK_DISPLACEMENT, DECK_MOMENT};
-use ttb_assessment::reduce::{AxleHistory, CarHistory, PointHistory};
+use ttb_assessment::reduce::{AxleHistory, CarHistory, LATERAL, PointHistory, SHIFT, SIDES, Sides};
 use ttb_assessment::{Criteria, Facts, Filter, Histories, Peak, PlaceKind, Statistic, reduce};
 use ttb_scenario::Checked;
-use ttb_scenario::types::Car;
+use ttb_scenario::types::{Car, Direction};
 use ttb_session::column::Kind;
 use ttb_session::{Column, Of, Quantity, Table};
 
@@ -67,7 +67,7 @@ pub fn histories(table: &Table, checked: &Checked, [from, to]: [f64; 2]) -> Hist
         at.map(|at| table.values[at][begin..end].to_vec()).unwrap_or_default()
     };
     let mut histories = Histories { time: table.time[begin..end].to_vec(), ..Histories::default() };
-    for point in &checked.bridge.points {
+    for point in checked.bridge.points.iter().filter(|point| point.direction != Direction::Y) {
         let of = Of::Point(point.name.clone());
         histories.points.push(PointHistory {
             name: point.name.clone(),
@@ -82,7 +82,13 @@ pub fn histories(table: &Table, checked: &Checked, [from, to]: [f64; 2]) -> Hist
     for (i, static_load) in loads.enumerate() {
         let of = Of::Wheel(i + 1);
         let (force, position) = (history(&of, &Quantity::ContactForce), history(&of, &Quantity::Position));
-        histories.axles.push(AxleHistory { number: i + 1, force, position, static_load });
+        let side = |name: &str| history(&of, &Quantity::named(name));
+        let sides = Sides {
+            lateral: SIDES.map(|[lateral, _]| side(lateral)),
+            vertical: SIDES.map(|[_, vertical]| side(vertical)),
+            shift: side(SHIFT),
+        };
+        histories.axles.push(AxleHistory { number: i + 1, force, position, static_load, sides });
     }
     for (i, car) in cars.iter().enumerate() {
         histories.cars.push(of_car(i, car, &history));
@@ -99,6 +105,7 @@ fn of_car(i: usize, car: &Car, history: &dyn Fn(&Of, &Quantity) -> Vec<f64>) -> 
         number: i + 1,
         acceleration: history(&of, &Quantity::Acceleration),
         pitch_acceleration: history(&of, &Quantity::PitchAcceleration),
+        lateral_acceleration: history(&of, &Quantity::named(LATERAL)),
         half_base: Some(0.5 * car.bogie_distance),
     }
 }
