@@ -83,11 +83,11 @@ def test_unknown_keys_and_criteria_are_refused_together(ttb, folder, tmp_path):
 
 
 def test_what_is_not_judged_has_its_reason(ttb, folder):
-    """N_MV needs five minutes; twist and lateral forces do not exist."""
+    """N_MV needs five minutes; twist needs a run in space."""
     out = ttb("report", folder).stdout
     assert re.search(r"not judged +comfort-n-mv +N_MV of EN 12299 needs 300 s; the record has 1\.1", out)
     assert re.search(r"not judged +comfort-en12299 +a running root mean square needs 5 s; the record has 1\.1", out)
-    assert re.search(r"not judged +twist +.*one rail", out)
+    assert re.search(r"not judged +twist +.*needs a run in space", out)
     assert re.search(r"not judged +deck-acceleration +the code makes this check with moving forces on a smooth rail", out)
 
 
