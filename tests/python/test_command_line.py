@@ -61,7 +61,7 @@ def test_lists_are_taken_with_commas_and_option_by_option(ttb, tmp_path):
         assert [span["length"] for span in spans] == [24, 30]
 
 
-@pytest.mark.parametrize("arguments", [[], ["frobnicate"], ["run", "--frobnicate"], ["check-scenario"]])
+@pytest.mark.parametrize("arguments", [[], ["frobnicate"], ["run", "--frobnicate"], ["report"]])
 def test_a_wrong_command_is_bad_input(ttb, arguments):
     """Exit code 2 and how to use it."""
     assert "Usage" in ttb(*arguments, expect=2).stderr

@@ -41,6 +41,9 @@ const ITERATIONS: [&str; 13] = [
     "work_imbalance",
 ];
 
+/// Says which columns may be written.
+type Allowed = Box<dyn Fn(&Column) -> bool>;
+
 /// Time and all columns, every few steps and at the last one.
 pub struct ResultsCsv<W: Write> {
     rows: Rows<W>,
@@ -48,7 +51,7 @@ pub struct ResultsCsv<W: Write> {
     last: u64,
     patterns: Vec<String>,
     /// Which columns may be written.
-    allowed: Option<Box<dyn Fn(&Column) -> bool>>,
+    allowed: Option<Allowed>,
     /// Places of the columns that are written.
     chosen: Vec<usize>,
 }
