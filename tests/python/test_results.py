@@ -13,7 +13,7 @@ from fmpy.util import read_csv
 from jsonschema import Draft202012Validator
 from scenario import changed
 
-FILES = ["Bridge.fmu", "TrainTrack.fmu", "assessment.json", "iterations.csv", "peaks.csv", "results.csv"]
+FILES = ["Bridge.fmu", "TrainTrack.fmu", "assessment.json", "envelope.csv", "iterations.csv", "peaks.csv", "results.csv"]
 FILES += ["results.png", "results.svg", "runs.csv", "scenario.resolved.json", "summary.json"]
 
 

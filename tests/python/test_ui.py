@@ -123,7 +123,8 @@ def test_problems_are_those_of_check_scenario(page, ttb, tmp_path):
     told = ttb("check-scenario", "scenario.json", expect=2, cwd=tmp_path).stderr
     problems = page.call("look", text=path.read_text())["problems"]
     assert len(problems) >= 3
-    for problem in problems:
+    # What concerns trains and speeds belongs to no place in the scenario.
+    for problem in filter(lambda one: one["path"], problems):
         assert f"scenario.json: {problem['path']}: {problem['text']}" in told, problem
     for text in ("", "{", "[]", "null", '"' + "a" * 10000, '{"train":' * 5000):
         assert page.call("look", text=text)["problems"], text[:20]

@@ -21,7 +21,7 @@ pub fn assemble(files: &Files, folder: &Path, stations: &[f64]) -> Result<Assemb
     from(files.read(folder).map_err(|problems| ModelError(problems.to_string()))?, stations)
 }
 
-/// As [`assemble`], with the rows of all components of the supports' motion in blocks ([`crate::across`]).
+/// As [`assemble`], with the rows of all components of the supports' motion in blocks (module `across`).
 ///
 /// # Errors
 /// As [`assemble`], and matrices that do not tell how the supports move across.

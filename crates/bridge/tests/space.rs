@@ -337,9 +337,9 @@ fn states_come_back_exactly_and_a_reduced_model_twists_as_the_full_one() {
     }
     let scale = |block: usize| ends[0][3 * block..3 * block + 3].iter().fold(0.0_f64, |m, x| m.max(x.abs()));
     for block in [0, 2, 4] {
-        for i in 3 * block..3 * block + 3 {
-            let off = (ends[2][i] - ends[0][i]).abs() / scale(block);
-            assert!(off < 1e-3, "output {i}: {} instead of {}", ends[2][i], ends[0][i]);
+        for (found, expected) in ends[2].iter().zip(&ends[0]).skip(3 * block).take(3) {
+            let off = (found - expected).abs() / scale(block);
+            assert!(off < 1e-3, "block {block}: {found} instead of {expected}");
         }
     }
 }
@@ -366,7 +366,7 @@ fn imported_matrices_sway_and_twist_as_their_model() {
         let freedom = ["x", "y", "z"].iter().position(|axis| name.contains(&format!(" {axis} of"))).unwrap();
         (node, freedom + if name.starts_with("rotation") { 3 } else { 0 })
     };
-    let sign = |freedom: usize| if freedom % 3 == 0 { 1.0 } else { -1.0 };
+    let sign = |freedom: usize| if freedom.is_multiple_of(3) { 1.0 } else { -1.0 };
     let mut rows = "row,node,direction\n".to_owned();
     for row in 0..n {
         let (node, freedom) = place(row);

@@ -9,7 +9,7 @@ use ttb_contract::Subsystem;
 use ttb_coupling::probe::Probe;
 use ttb_fmi::temporary::Temporary;
 use ttb_scenario::Checked;
-use ttb_session::observe::{Iterations, IterationsCsv, Peaks, Progress, ResultsCsv, Timed};
+use ttb_session::observe::{Iterations, IterationsCsv, Only, Peaks, Progress, ResultsCsv, Timed};
 use ttb_session::{Column, Coupled, Ended, Plan, drive};
 
 use super::output::{Opening, Output};
@@ -180,11 +180,7 @@ fn run_connected(
     let axis = job.case.axis();
     let [results, iterations] = ["results.csv", "iterations.csv"].map(|name| output.folder().join(name));
     let mut results = ResultsCsv::new(Rows::of(&results), &results.display().to_string(), job.case.every)
-        .with(&job.case.columns, job.case.csv)
-        .allowing({
-            let case = job.case.clone();
-            move |column| case.keeps(column)
-        });
+        .with(&job.case.columns, job.case.csv);
     let mut iterations =
         IterationsCsv::new(Rows::of(&iterations), &iterations.display().to_string()).with(job.case.csv);
     let ours = judged.checked.filter(|_| arguments.bridge.is_empty());
@@ -194,7 +190,8 @@ fn run_connected(
     let mut progress = Progress::new(&mut tell, stop.flag());
     let clock = || begin.elapsed().as_secs_f64();
     let deck = log.watch.supports();
-    let wanted = |column: &Column| job.case.keeps(column) || deck.contains(column);
+    let kept = |column: &Column| job.case.keeps(column);
+    let wanted = |column: &Column| kept(column) || deck.contains(column);
     let plan = Plan { axis, wanted: &wanted, clock: &clock };
     let Connected { train_track, bridge, coupling, parts, probe, rules, warnings, .. } = &mut *connected;
     let own = ours.map(|checked| &checked.bridge.structure);
@@ -221,8 +218,8 @@ fn run_connected(
             &mut Opening(output),
             &mut log.counted,
             &mut iterations,
-            &mut results,
-            &mut log.peaks,
+            &mut Only::new(&mut results, &kept),
+            &mut Only::new(&mut log.peaks, &kept),
             &mut log.plot,
             &mut log.watch,
             &mut log.timed,

@@ -6,6 +6,7 @@ use std::sync::Arc;
 use ttb_bridge::full::Full;
 use ttb_bridge::lanes::RUNS;
 use ttb_bridge::law::Law;
+use ttb_bridge::reduction::Supports;
 use ttb_bridge::rows::Rows;
 use ttb_bridge::structure::eliminated_last;
 use ttb_bridge::system::{Base, Lane, Step, System, Work};
@@ -15,7 +16,6 @@ use ttb_dynamics::newmark::{Motion, Newmark};
 use ttb_scenario::spec::StructureSpec;
 use ttb_scenario::types::Reduction;
 use ttb_sparse::Layout;
-use ttb_sparse::Pencil;
 
 use crate::meter::{least, peak_memory, stream, timed};
 
@@ -100,7 +100,8 @@ pub fn measure(scenario: &Path, reduce: Option<f64>, reducible: usize) -> Row {
         let mut setup = 0.0;
         let built = timed("reduce", &mut setup, || {
             let factor = pencil.factor(1.0, 0.0, 0.0).expect("a factor");
-            reduction::build(&pencil, &factor, &law, newmark, &rows, &spec.supports, &wish).expect("a basis")
+            let supports = Supports { stations: &spec.supports, ports: 1 };
+            reduction::build(&pencil, &factor, &law, newmark, &rows, supports, &wish).expect("a basis")
         });
         println!("{:?}", built.accuracy);
         let (system, shared) = (Arc::new(built.system), Arc::new(built.rows));

@@ -12,7 +12,6 @@ use lexical_core::format::STANDARD;
 use ttb_coupling::{Outcome, StepInfo};
 use ttb_scenario::types::{ALL_DIGITS, Csv, Decimal, Separator};
 
-use crate::column::Column;
 use crate::error::RunError;
 use crate::observe::chosen::chosen;
 use crate::observe::{Begin, GO_ON, Moment, Observer};
@@ -41,17 +40,12 @@ const ITERATIONS: [&str; 13] = [
     "work_imbalance",
 ];
 
-/// Says which columns may be written.
-type Allowed = Box<dyn Fn(&Column) -> bool>;
-
 /// Time and all columns, every few steps and at the last one.
 pub struct ResultsCsv<W: Write> {
     rows: Rows<W>,
     every: u64,
     last: u64,
     patterns: Vec<String>,
-    /// Which columns may be written.
-    allowed: Option<Allowed>,
     /// Places of the columns that are written.
     chosen: Vec<usize>,
 }
@@ -60,27 +54,19 @@ impl<W: Write> ResultsCsv<W> {
     /// Writes every `every`-th step to a writer that is called `name` in messages.
     pub fn new(writer: W, name: &str, every: u64) -> Self {
         let rows = Rows::new(writer, name, Csv::default());
-        Self { rows, every: every.max(1), last: 0, patterns: Vec::new(), allowed: None, chosen: Vec::new() }
+        Self { rows, every: every.max(1), last: 0, patterns: Vec::new(), chosen: Vec::new() }
     }
 
     /// Only the columns that are called so, in another form.
     pub fn with(self, columns: &[String], csv: Csv) -> Self {
         Self { patterns: columns.to_vec(), rows: Rows { form: Form::new(csv), ..self.rows }, ..self }
     }
-
-    /// None but these: others are read for other observers.
-    pub fn allowing(self, allowed: impl Fn(&Column) -> bool + 'static) -> Self {
-        Self { allowed: Some(Box::new(allowed)), ..self }
-    }
 }
 
 impl<W: Write> Observer for ResultsCsv<W> {
     fn start(&mut self, begin: &Begin) -> Result<(), RunError> {
         self.last = begin.axis.steps();
-        let is_allowed = |column: &Column| self.allowed.as_ref().is_none_or(|allowed| allowed(column));
-        let places: Vec<usize> = (0..begin.columns.len()).filter(|i| is_allowed(&begin.columns[*i])).collect();
-        let columns: Vec<Column> = places.iter().map(|i| begin.columns[*i].clone()).collect();
-        self.chosen = chosen(&columns, &self.patterns)?.into_iter().map(|i| places[i]).collect();
+        self.chosen = chosen(begin.columns, &self.patterns)?;
         let names: Vec<String> = self.chosen.iter().map(|i| begin.columns[*i].to_string()).collect();
         self.rows.header(std::iter::once("time").chain(names.iter().map(String::as_str)))
     }

@@ -3,6 +3,7 @@
 mod chosen;
 mod csv;
 mod iterations;
+mod only;
 mod peaks;
 mod progress;
 mod table;
@@ -14,6 +15,7 @@ use ttb_coupling::StepInfo;
 
 pub use csv::{IterationsCsv, ResultsCsv};
 pub use iterations::Iterations;
+pub use only::Only;
 pub use peaks::{ContactLoss, Extreme, Peak, Peaks};
 pub use progress::Progress;
 pub use table::Table;

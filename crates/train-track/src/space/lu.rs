@@ -69,7 +69,7 @@ mod tests {
     #[test]
     fn a_factor_solves_what_the_matrix_multiplies() {
         let n = 13;
-        let entry = |i: usize, j: usize| ((7 * i + 3 * j * j + 1) as f64).sin();
+        let entry = |i: usize, j: usize| ((5 * i * j + 3 * j * j + i + 1) as f64).sin();
         let mut lu = Lu::new(n);
         (0..n * n).for_each(|k| lu.rows[k] = entry(k / n, k % n));
         let x: Vec<f64> = (0..n).map(|i| (i as f64).cos()).collect();

@@ -2,7 +2,7 @@
 //!
 //! What such a process has started is found in three ways, since it may have got out of any one of them: by its group, by its
 //! descent, and by a mark that it has in its environment. A host of foreign code is the parent of all orphans below it
-//! ([`end_with_parent`]), so that descent holds as long as it lives; the mark holds longer.
+//! (`end_with_parent`), so that descent holds as long as it lives; the mark holds longer.
 
 use super::watch::end_with_parent;
 use rustix::process::{Pid, Signal, WaitId, WaitIdOptions, kill_process, kill_process_group, waitid};
