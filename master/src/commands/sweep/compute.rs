@@ -67,7 +67,7 @@ pub fn compute(expanded: Expanded, common: &Common, stop: &Stop) -> Result<(), E
     if count == 0 {
         return Err(Error::Input("no run is asked for: every train's greatest speed is below the first speed".into()));
     }
-    let workers = common.jobs.unwrap_or_else(|| std::thread::available_parallelism().map_or(1, usize::from)).max(1);
+    let workers = common.jobs.unwrap_or_else(processors).max(1);
     let all = common.keep_histories == Keep::All;
     let runner = Runner::new(&expanded)?;
     let runner = if all { runner.keeping(&common.output) } else { runner };
@@ -106,7 +106,11 @@ pub fn compute(expanded: Expanded, common: &Common, stop: &Stop) -> Result<(), E
     if shard != Shard::WHOLE {
         return outcome::of_shard(&folder, shard, common.quiet);
     }
-    outcome::finish(&folder, &runner, &expanded, (common.quiet, common.keep_histories), stop)
+    outcome::finish(&folder, &runner, &expanded, (common.quiet, common.keep_histories, workers), stop)
+}
+
+fn processors() -> usize {
+    std::thread::available_parallelism().map_or(1, usize::from)
 }
 
 /// Removes the files of runs that were done when no histories were asked for.
@@ -135,5 +139,5 @@ pub fn merge(path: &Path, stop: &Stop) -> Result<(), Error> {
     let _claimed = Claimed::claim(path, stop)?;
     stop.gently();
     let folder = Folder::read(path)?;
-    outcome::finish(&folder, &Runner::new(&expanded)?, &expanded, (false, Keep::Worst), stop)
+    outcome::finish(&folder, &Runner::new(&expanded)?, &expanded, (false, Keep::Worst, processors()), stop)
 }

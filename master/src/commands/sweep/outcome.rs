@@ -6,6 +6,7 @@ use ttb_assessment::filter::RAW;
 use ttb_assessment::peak::quantity::{DECK_ACCELERATION, DECK_DISPLACEMENT};
 use ttb_campaign::expand::Expanded;
 use ttb_campaign::governing::{self, Compared, Governing};
+use ttb_campaign::history::History;
 use ttb_campaign::plan::{Load, Plan};
 use ttb_campaign::slurm::quoted;
 use ttb_campaign::status::Status;
@@ -38,13 +39,13 @@ pub fn finish(
     folder: &Folder,
     runner: &Runner,
     expanded: &Expanded,
-    (quiet, keep): (bool, Keep),
+    (quiet, keep, workers): (bool, Keep, usize),
     stop: &Stop,
 ) -> Result<(), Error> {
     let runs = folder.runs(&runner.refined())?;
     let status = Status::of(&runs, &folder.journal)?;
     let governing = governing::of(&runs, &runner.refined().keys, &folder.journal)?;
-    let compared = again(folder, runner, &governing, keep, stop)?;
+    let compared = again(folder, runner, &governing, (keep, workers), stop)?;
     let own_is_smooth = matches!(expanded.checked.train_track.irregularity, Profile::None);
     folder.tables(&runs, own_is_smooth)?;
     curves(folder, &runs, &expanded.checked.scenario.title)?;
@@ -91,34 +92,60 @@ fn again(
     folder: &Folder,
     runner: &Runner,
     governing: &[Governing],
-    keep: Keep,
+    (keep, workers): (Keep, usize),
     stop: &Stop,
 ) -> Result<Vec<Compared>, Error> {
+    // The coupled way compared with itself says nothing.
+    let coupled = folder.plan.way == Way::Coupled;
+    if coupled && keep != Keep::Worst {
+        return Ok(Vec::new());
+    }
+    let mut once: Vec<&Governing> = Vec::new();
+    for one in governing {
+        if !once.iter().any(|other| other.run.id == one.run.id) {
+            once.push(one);
+        }
+    }
     let mut compared = Vec::new();
     let mut known: Vec<(String, Option<ttb_campaign::Record>)> = Vec::new();
-    for one in governing {
-        if !known.iter().any(|(id, _)| *id == one.run.id) {
-            match runner.again(&one.run, one.step, stop.flag()) {
-                Ok(Some((record, history))) => {
-                    if keep == Keep::Worst {
-                        history.write(folder.path(), &one.run.id)?;
-                    }
-                    known.push((one.run.id.clone(), record));
+    for (one, again) in once.iter().zip(each_once_more(runner, &once, workers, stop)) {
+        match again {
+            Ok(Some((record, history))) => {
+                if keep == Keep::Worst {
+                    history.write(folder.path(), &one.run.id)?;
                 }
-                Ok(None) => return stop.asked().map_or(Ok(Vec::new()), |signal| Err(Error::Interrupted(signal))),
-                Err(error) => note!("ttb: warning: the governing run {} could not be repeated: {error}", one.run.id),
+                known.push((one.run.id.clone(), record));
             }
+            Ok(None) => return stop.asked().map_or(Ok(Vec::new()), |signal| Err(Error::Interrupted(signal))),
+            Err(error) => note!("ttb: warning: the governing run {} could not be repeated: {error}", one.run.id),
         }
+    }
+    if coupled {
+        return Ok(Vec::new());
+    }
+    for one in governing {
         let record = known.iter().find(|(id, _)| *id == one.run.id).and_then(|(_, record)| record.as_ref());
         let names = [&folder.plan.trains[one.run.train].name, &folder.plan.variants[one.run.variant].name];
         compared.extend(record.and_then(|record| governing::compared(one, record, names.map(String::as_str))));
     }
-    // The coupled way compared with itself says nothing.
-    if folder.plan.way == Way::Coupled {
-        return Ok(Vec::new());
-    }
     write_json(&folder.path().join(governing::FILE), &compared)?;
     Ok(compared)
+}
+
+/// A run with its history, and of axle loads its record.
+type Again = Result<Option<(Option<ttb_campaign::Record>, History)>, String>;
+
+/// The few runs that govern, at the same time if there is more than one worker.
+fn each_once_more(runner: &Runner, runs: &[&Governing], workers: usize, stop: &Stop) -> Vec<Again> {
+    let flag = stop.flag();
+    let again = |one: &Governing| runner.again(&one.run, one.step, flag);
+    if workers < 2 {
+        return runs.iter().map(|one| again(one)).collect();
+    }
+    std::thread::scope(|scope| {
+        let threads: Vec<_> = runs.iter().map(|one| scope.spawn(|| again(one))).collect();
+        threads.into_iter().map(|one| one.join().unwrap_or_else(|_| Err("it ended by a panic".into()))).collect()
+    })
 }
 
 fn sentence(plan: &Plan, one: &Governing) -> String {
