@@ -5,13 +5,14 @@ use std::sync::Arc;
 
 use ttb_dynamics::newmark::Newmark;
 use ttb_dynamics::pool::Pool;
-use ttb_scenario::limits::{MOST_SUBSTEPS, pre_roll_steps};
+use ttb_scenario::limits::pre_roll_steps;
 use ttb_scenario::spec::TrainTrackSpec;
 use ttb_scenario::travel::fade_in;
 
 use crate::contact::Contacts;
 use crate::coupled::{StepMatrices, TrainTrackSystem};
 use crate::fleet::{Fleet, Reading};
+use crate::macro_step::{Inputs, Sizes};
 use crate::outputs::View;
 use crate::parameters::{Parameter, Parameters};
 use crate::pre_roll::pre_roll;
@@ -25,16 +26,10 @@ use crate::statics::equilibrium;
 use crate::step_means::StepMeans;
 use crate::wheels::{Wheels, on_rail};
 
-/// Steps within this of a factorised one are that one.
-const SAME_STEP: f64 = 1e-9;
-/// Step sizes kept factorised.
-const STEP_SIZES: usize = 4;
-
 /// A train on its track, ready to run.
 pub struct Built {
     system: TrainTrackSystem,
-    /// The nominal step first, then others as they come.
-    steps: Vec<StepMatrices>,
+    sizes: Sizes<StepMatrices>,
     start: f64,
     pre_roll: f64,
     input_meaning: f64,
@@ -90,7 +85,7 @@ impl Built {
         let wheels = Wheels::new(offsets, front, running, irregularity);
         let system = TrainTrackSystem::new(prepared, fleet, Contacts::new(laws), wheels);
         Ok(Self {
-            steps: vec![system.matrices(newmark)?],
+            sizes: Sizes::new(newmark, system.matrices(newmark)?),
             start,
             pre_roll,
             readings: system.fleet.readings().concat(),
@@ -120,7 +115,7 @@ impl Built {
             pre_roll: self.pre_roll,
             input_meaning: self.input_meaning,
             friction: get(Parameter::Friction),
-            newmark: self.steps[0].newmark,
+            newmark: self.sizes.newmark(),
             means: self.means,
             wheels: self.system.wheels.clone(),
             irregularity: Rails::new(spec, &space.irregularity, scale, passage, Some(seed)),
@@ -179,7 +174,7 @@ impl Built {
     pub fn roll_in(&mut self) -> Result<(), String> {
         if self.pre_roll > 0.0 {
             let mut state = State::clone(&self.state);
-            pre_roll(&mut self.system, &self.steps[0], self.pre_roll, &mut state)?;
+            pre_roll(&mut self.system, self.sizes.nominal(), self.pre_roll, &mut state)?;
             self.replace(state);
         }
         Ok(())
@@ -190,57 +185,27 @@ impl Built {
         self.means.rest(&self.state);
     }
 
-    /// Position of the matrices for sub-steps of `h` seconds; factorises when the size is new.
-    fn matrices(&mut self, h: f64) -> Result<usize, String> {
-        let same = |m: &StepMatrices| (m.newmark.h - h).abs() <= SAME_STEP * h;
-        if let Some(i) = self.steps.iter().position(same) {
-            return Ok(i);
-        }
-        let nominal = self.steps[0].newmark;
-        let matrices = self.system.matrices(Newmark::new(nominal.gamma, nominal.beta, h))?;
-        if self.steps.len() == STEP_SIZES {
-            self.steps.remove(1);
-        }
-        self.steps.push(matrices);
-        Ok(self.steps.len() - 1)
-    }
-
     /// One macro step from `t` to `t + h`: as many equal sub-steps as it takes to be no longer than the nominal step.
     ///
     /// # Errors
     /// A sub-step cannot be done; the state is then that of the last one that could.
     pub fn step(&mut self, inputs: &[f64], rates: Option<&[f64]>, t: f64, h: f64) -> Result<(), String> {
-        let nominal = self.steps[0].newmark.h;
-        let parts = (h / nominal * (1.0 - SAME_STEP)).ceil().max(1.0);
-        if parts > MOST_SUBSTEPS as f64 {
-            return Err(format!("a step of {h} s has more than {MOST_SUBSTEPS} parts of step_size = {nominal} s"));
-        }
-        let matrices = self.matrices(h / parts)?;
+        let parts = self.sizes.parts(h)?;
+        let matrices = self.sizes.of(h / parts, |newmark| self.system.matrices(newmark))?;
+        let supports = self.means.mean.len();
+        let deck = Inputs { values: inputs, rates, meaning: self.input_meaning, supports };
         let t = t - self.start;
         self.means.begin();
         for part in 1..=parts as u64 {
             let tau = h * (part as f64 / parts);
-            self.deck_at(inputs, rates, tau);
+            deck.at(tau, &self.state.deck, &mut self.deck);
             let mut buffer = self.pool.take(|| State::clone(&self.state));
             let Some(new) = Arc::get_mut(&mut buffer) else { return Err("a state buffer is in use".into()) };
-            self.system.step(&self.steps[matrices], &self.state, new, &self.deck, t + tau)?;
+            self.system.step(matrices, &self.state, new, &self.deck, t + tau)?;
             self.means.add(self.system.track(), &self.state, new, parts);
             self.pool.give(&buffer);
             self.state = buffer;
         }
         Ok(())
-    }
-
-    /// Deck motion at `tau` seconds into the step, from what the inputs mean.
-    fn deck_at(&mut self, inputs: &[f64], rates: Option<&[f64]>, tau: f64) {
-        let (end_of_last, supports) = (&self.state.deck, self.means.mean.len());
-        for i in 0..inputs.len() {
-            self.deck[i] = match rates {
-                Some(rates) => inputs[i] + rates[i] * tau,
-                None if self.input_meaning == 2.0 => 2.0 * inputs[i] - end_of_last[i],
-                None if self.input_meaning == 1.0 && i < supports => inputs[i] + tau * inputs[i + supports],
-                None => inputs[i],
-            };
-        }
     }
 }

@@ -2,6 +2,8 @@
 
 use ttb_dynamics::newmark::Motion;
 
+use crate::numbers;
+
 /// Dynamic state of the subsystem.
 #[derive(Clone, Debug, PartialEq)]
 pub struct State {
@@ -47,7 +49,7 @@ impl State {
 
     /// Appends all numbers, little endian.
     pub fn write(&self, bytes: &mut Vec<u8>) {
-        self.numbers().for_each(|x| bytes.extend(x.to_le_bytes()));
+        numbers::write(self.numbers(), bytes);
     }
 
     /// Takes over what [`State::write`] wrote of a state of the same size.
@@ -55,16 +57,7 @@ impl State {
     /// # Errors
     /// Another number of bytes, or a number that is not finite: no step leads to such a state.
     pub fn read(&mut self, bytes: &[u8]) -> Result<(), String> {
-        let (numbers, rest) = bytes.as_chunks::<8>();
-        if !rest.is_empty() || numbers.len() != self.numbers().count() {
-            return Err("the serialized FMU state belongs to another train or track".into());
-        }
-        for (i, (x, bytes)) in self.numbers_mut().zip(numbers).enumerate() {
-            *x = f64::from_le_bytes(*bytes);
-            if !x.is_finite() {
-                return Err(format!("the serialized FMU state is damaged: number {} of the state is {x}", i + 1));
-            }
-        }
-        Ok(())
+        let count = self.numbers().count();
+        numbers::read(bytes, count, self.numbers_mut())
     }
 }

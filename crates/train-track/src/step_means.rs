@@ -48,8 +48,13 @@ impl StepMeans {
             *mean += force / parts;
             self.work += force * (to - from);
         }
+        self.look(track, &new.track.a);
+    }
+
+    /// Takes in the rail's accelerations at the end of a sub-step.
+    pub fn look(&mut self, track: &Track, a: &[f64]) {
         for (peak, point) in self.peaks.iter_mut().zip(&self.points) {
-            let a = track.deflection(point, &new.track.a);
+            let a = track.deflection(point, a);
             if a.abs() > peak.abs() {
                 *peak = a;
             }

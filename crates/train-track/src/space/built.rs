@@ -4,7 +4,6 @@ use std::sync::Arc;
 
 use ttb_dynamics::newmark::Newmark;
 use ttb_dynamics::pool::Pool;
-use ttb_scenario::limits::MOST_SUBSTEPS;
 use ttb_scenario::spec::{SpaceSpec, TrainTrackSpec};
 use ttb_wheel_rail::contact::Contact;
 
@@ -20,21 +19,18 @@ use super::statics::{PLANE, rest};
 use super::system::{SpaceStep, SpaceSystem};
 use crate::coupled::TrainTrackSystem;
 use crate::fleet::Reading;
+use crate::macro_step::{Inputs, Sizes};
 use crate::outputs::View;
 use crate::profile::rails::Rails;
 use crate::state::State;
 use crate::step_means::StepMeans;
+use crate::track::Track;
 use crate::wheels::Wheels;
-
-/// Steps within this of a factorised one are that one.
-const SAME_STEP: f64 = 1e-9;
-/// Step sizes kept factorised.
-const STEP_SIZES: usize = 4;
 
 /// A train on its track.
 pub struct SpaceBuilt {
     system: SpaceSystem,
-    steps: Vec<SpaceStep>,
+    sizes: Sizes<SpaceStep>,
     start: f64,
     pre_roll: f64,
     input_meaning: f64,
@@ -116,11 +112,11 @@ impl SpaceBuilt {
         let supports = prepared.track.bridge_supports();
         let system =
             SpaceSystem::new(prepared, lines, kinds, of_kind, ports, begin.wheels, begin.irregularity, space.clone());
-        let steps = vec![system.matrices(begin.newmark)?];
+        let sizes = Sizes::new(begin.newmark, system.matrices(begin.newmark)?);
         let plane_state = State::rest(plane.track().order(), plane.fleet.order(), plane.fleet.axles(), supports);
         Ok(Self {
             state: Arc::new(system.rest()),
-            steps,
+            sizes,
             start: begin.start,
             pre_roll: begin.pre_roll,
             input_meaning: begin.input_meaning,
@@ -173,7 +169,7 @@ impl SpaceBuilt {
     pub fn roll_in(&mut self) -> Result<(), String> {
         if self.pre_roll > 0.0 {
             let mut state = SpaceState::clone(&self.state);
-            pre_roll(&mut self.system, &self.steps[0], self.pre_roll, &mut state)?;
+            pre_roll(&mut self.system, self.sizes.nominal(), self.pre_roll, &mut state)?;
             self.replace(state);
         }
         Ok(())
@@ -187,76 +183,29 @@ impl SpaceBuilt {
         self.means.mean.copy_from_slice(&self.mean[..n]);
     }
 
-    fn matrices(&mut self, h: f64) -> Result<usize, String> {
-        let same = |m: &SpaceStep| (m.newmark.h - h).abs() <= SAME_STEP * h;
-        if let Some(i) = self.steps.iter().position(same) {
-            return Ok(i);
-        }
-        let nominal = self.steps[0].newmark;
-        let matrices = self.system.matrices(Newmark::new(nominal.gamma, nominal.beta, h))?;
-        if self.steps.len() == STEP_SIZES {
-            self.steps.remove(1);
-        }
-        self.steps.push(matrices);
-        Ok(self.steps.len() - 1)
-    }
-
     /// One macro step from `t` to `t + h`: as many equal sub-steps as it takes to be no longer than the nominal step.
     ///
     /// # Errors
     /// A sub-step cannot be done; the state is then that of the last one that could.
     pub fn step(&mut self, inputs: &[f64], rates: Option<&[f64]>, t: f64, h: f64) -> Result<(), String> {
-        let nominal = self.steps[0].newmark.h;
-        let parts = (h / nominal * (1.0 - SAME_STEP)).ceil().max(1.0);
-        if parts > MOST_SUBSTEPS as f64 {
-            return Err(format!("a step of {h} s has more than {MOST_SUBSTEPS} parts of step_size = {nominal} s"));
-        }
-        let matrices = self.matrices(h / parts)?;
+        let parts = self.sizes.parts(h)?;
+        let matrices = self.sizes.of(h / parts, |newmark| self.system.matrices(newmark))?;
+        let supports = self.mean.len() / 3;
+        let deck = Inputs { values: inputs, rates, meaning: self.input_meaning, supports };
         let t = t - self.start;
         self.means.begin();
         self.mean.fill(0.0);
         for part in 1..=parts as u64 {
             let tau = h * (part as f64 / parts);
-            self.deck_at(inputs, rates, tau);
+            deck.at(tau, &self.state.deck, &mut self.deck);
             let mut buffer = self.pool.take(|| SpaceState::clone(&self.state));
             let Some(new) = Arc::get_mut(&mut buffer) else { return Err("a state buffer is in use".into()) };
-            self.system.step(&self.steps[matrices], &self.state, new, &self.deck, t + tau)?;
-            let old = Arc::clone(&self.state);
-            self.add(&old, &buffer, parts);
+            self.system.step(matrices, &self.state, new, &self.deck, t + tau)?;
+            add([&self.state, new], parts, &self.system.prepared.track, &mut self.mean, &mut self.means);
             self.pool.give(&buffer);
             self.state = buffer;
         }
         Ok(())
-    }
-
-    /// Takes one of `parts` sub-steps into means, work and peaks.
-    fn add(&mut self, old: &SpaceState, new: &SpaceState, parts: f64) {
-        let n = self.mean.len() / 3;
-        for (k, mean) in self.mean.iter_mut().enumerate() {
-            let force = 0.5 * (old.supports[k] + new.supports[k]);
-            let at = k / n * 2 * n + k % n;
-            *mean += force / parts;
-            self.means.work += force * (new.deck[at] - old.deck[at]);
-        }
-        self.means.mean.copy_from_slice(&self.mean[..n]);
-        for (peak, point) in self.means.peaks.iter_mut().zip(&self.means.points) {
-            let a = self.system.prepared.track.deflection(point, &new.track.a);
-            if a.abs() > peak.abs() {
-                *peak = a;
-            }
-        }
-    }
-
-    fn deck_at(&mut self, inputs: &[f64], rates: Option<&[f64]>, tau: f64) {
-        let (end_of_last, n) = (&self.state.deck, self.mean.len() / 3);
-        for i in 0..inputs.len() {
-            self.deck[i] = match rates {
-                Some(rates) => inputs[i] + rates[i] * tau,
-                None if self.input_meaning == 2.0 => 2.0 * inputs[i] - end_of_last[i],
-                None if self.input_meaning == 1.0 && (i / n).is_multiple_of(2) => inputs[i] + tau * inputs[i + n],
-                None => inputs[i],
-            };
-        }
     }
 
     /// Fills in all outputs at time `t`, s; `plane` of them are those of a plane run.
@@ -308,4 +257,17 @@ impl SpaceBuilt {
             at += ports.n;
         }
     }
+}
+
+/// Takes one of `parts` sub-steps, between two states, into means, work and peaks.
+fn add([old, new]: [&SpaceState; 2], parts: f64, track: &Track, mean: &mut [f64], means: &mut StepMeans) {
+    let n = mean.len() / 3;
+    for (k, mean) in mean.iter_mut().enumerate() {
+        let force = 0.5 * (old.supports[k] + new.supports[k]);
+        let at = k / n * 2 * n + k % n;
+        *mean += force / parts;
+        means.work += force * (new.deck[at] - old.deck[at]);
+    }
+    means.mean.copy_from_slice(&mean[..n]);
+    means.look(track, &new.track.a);
 }
