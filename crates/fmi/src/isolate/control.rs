@@ -1,7 +1,8 @@
 //! The part of the shared memory that stays where it is: request, reply, and the log.
 
 use crate::log::{KEPT, LogTarget, Message};
-use crate::platform::memory::{Mapping, Shared};
+use crate::platform::mapping::Mapping;
+use crate::platform::memory::Shared;
 use crate::status::Status;
 use std::io;
 use std::sync::atomic::{AtomicU32, AtomicU64, Ordering};

@@ -1,6 +1,7 @@
 //! The part of the shared memory that grows with what a call carries: a few lists of value references, then values.
 
-use crate::platform::memory::{Mapping, Shared};
+use crate::platform::mapping::Mapping;
+use crate::platform::memory::Shared;
 use std::io;
 
 /// Bytes of data there is room for at the beginning.

@@ -3,9 +3,13 @@
 //! modules beside these and nothing elsewhere.
 
 #[cfg(feature = "import")]
+pub mod ending;
+#[cfg(feature = "import")]
 pub mod image;
 #[cfg(all(feature = "import", target_os = "linux"))]
 mod linux;
+#[cfg(all(feature = "import", any(target_os = "linux", windows)))]
+pub mod mapping;
 #[cfg(unix)]
 mod unix;
 #[cfg(windows)]

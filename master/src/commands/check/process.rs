@@ -10,7 +10,8 @@ use std::time::{Duration, Instant};
 use super::finding::Finding;
 use ttb_fmi::output::Output;
 use ttb_fmi::platform::TEMPORARY_VARIABLES;
-use ttb_fmi::platform::process::{Ending, Group, ending};
+use ttb_fmi::platform::ending::Ending;
+use ttb_fmi::platform::process::{Group, ending};
 use ttb_fmi::temporary::Temporary;
 
 use crate::error::Error;

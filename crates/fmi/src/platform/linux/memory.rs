@@ -50,38 +50,19 @@ impl Shared {
     }
 }
 
-/// A part of the file in this process's memory.
-pub struct Mapping {
-    base: NonNull<u8>,
-    length: usize,
+/// Maps `length` bytes of the file from `offset`.
+pub fn map(file: &Shared, offset: usize, length: usize) -> io::Result<NonNull<u8>> {
+    let (access, flags) = (ProtFlags::READ | ProtFlags::WRITE, MapFlags::SHARED);
+    // SAFETY: the kernel chooses the place; the file cannot shrink below the mapping (it is sealed).
+    let base = unsafe { mmap(std::ptr::null_mut(), length, access, flags, &file.0, offset as u64) }?;
+    NonNull::new(base.cast()).ok_or(io::ErrorKind::OutOfMemory.into())
 }
 
-// SAFETY: plain memory that stays mapped as long as this lives; who reads and writes it when is the handshake's affair.
-unsafe impl Send for Mapping {}
-// SAFETY: as above.
-unsafe impl Sync for Mapping {}
-
-impl Mapping {
-    /// `length` bytes from `offset`, both multiples of 64 KiB.
-    pub fn new(file: &Shared, offset: usize, length: usize) -> io::Result<Self> {
-        let (access, flags) = (ProtFlags::READ | ProtFlags::WRITE, MapFlags::SHARED);
-        // SAFETY: the kernel chooses the place; the file cannot shrink below the mapping (it is sealed).
-        let base = unsafe { mmap(std::ptr::null_mut(), length, access, flags, &file.0, offset as u64) }?;
-        let base = NonNull::new(base.cast()).ok_or(io::ErrorKind::OutOfMemory)?;
-        Ok(Self { base, length })
-    }
-
-    /// Address of `length` bytes at `offset`; both are computed on this side, so that a place outside is a bug.
-    pub fn at(&self, offset: usize, length: usize) -> *mut u8 {
-        assert!(offset.checked_add(length).is_some_and(|end| end <= self.length), "outside of shared memory");
-        // SAFETY: inside the mapping.
-        unsafe { self.base.as_ptr().add(offset) }
-    }
-}
-
-impl Drop for Mapping {
-    fn drop(&mut self) {
-        // SAFETY: our mapping; nobody holds a reference into it longer than this.
-        let _ = unsafe { munmap(self.base.as_ptr().cast(), self.length) };
-    }
+/// Undoes [`map`].
+///
+/// # Safety
+/// It was mapped with this length, and nobody uses it any more.
+pub unsafe fn unmap(base: NonNull<u8>, length: usize) {
+    // SAFETY: the caller's.
+    let _ = unsafe { munmap(base.as_ptr().cast(), length) };
 }

@@ -5,6 +5,7 @@
 //! (`end_with_parent`), so that descent holds as long as it lives; the mark holds longer.
 
 use super::watch::end_with_parent;
+use crate::platform::ending::Ending;
 use rustix::process::{Pid, Signal, WaitId, WaitIdOptions, kill_process, kill_process_group, waitid};
 use std::collections::BTreeSet;
 use std::hash::{BuildHasher, RandomState};
@@ -170,17 +171,6 @@ fn below(ancestor: i32) -> BTreeSet<i32> {
         }
     }
     found
-}
-
-/// How a process came to its end.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Ending {
-    /// By itself, with an exit code.
-    Code(i32),
-    /// It aborted itself; how.
-    Abort(String),
-    /// It crashed; by what.
-    Crash(String),
 }
 
 /// How a process came to its end.

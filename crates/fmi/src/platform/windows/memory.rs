@@ -66,44 +66,27 @@ impl Shared {
     }
 }
 
-/// A part of the section in this process's memory.
-pub struct Mapping {
-    base: NonNull<u8>,
-    length: usize,
+/// Maps `length` bytes of the section from `offset`, and commits them.
+pub fn map(memory: &Shared, offset: usize, length: usize) -> io::Result<NonNull<u8>> {
+    let (access, high, low) = (api::FILE_MAP_READ | api::FILE_MAP_WRITE, (offset as u64 >> 32) as u32, offset as u32);
+    // SAFETY: the system chooses the place.
+    let base = unsafe { api::MapViewOfFile(memory.section.0, access, high, low, length) };
+    let Some(found) = NonNull::new(base.cast()) else { return Err(io::Error::last_os_error()) };
+    // SAFETY: the pages of the view; those that are committed stay as they are.
+    if unsafe { api::VirtualAlloc(base, length, api::MEM_COMMIT, api::PAGE_READWRITE) }.is_null() {
+        let error = io::Error::last_os_error();
+        // SAFETY: just mapped, and nobody has it.
+        unsafe { unmap(found, length) };
+        return Err(error);
+    }
+    Ok(found)
 }
 
-// SAFETY: plain memory that stays mapped as long as this lives; who reads and writes it when is the handshake's affair.
-unsafe impl Send for Mapping {}
-// SAFETY: as above.
-unsafe impl Sync for Mapping {}
-
-impl Mapping {
-    /// `length` bytes from `offset`, both multiples of 64 KiB.
-    pub fn new(file: &Shared, offset: usize, length: usize) -> io::Result<Self> {
-        let (access, high, low) =
-            (api::FILE_MAP_READ | api::FILE_MAP_WRITE, (offset as u64 >> 32) as u32, offset as u32);
-        // SAFETY: the system chooses the place.
-        let base = unsafe { api::MapViewOfFile(file.section.0, access, high, low, length) };
-        let Some(found) = NonNull::new(base.cast()) else { return Err(io::Error::last_os_error()) };
-        let mapping = Self { base: found, length };
-        // SAFETY: the pages of the view; those that are committed stay as they are.
-        if unsafe { api::VirtualAlloc(base, length, api::MEM_COMMIT, api::PAGE_READWRITE) }.is_null() {
-            return Err(io::Error::last_os_error());
-        }
-        Ok(mapping)
-    }
-
-    /// Address of `length` bytes at `offset`; both are computed on this side, so that a place outside is a bug.
-    pub fn at(&self, offset: usize, length: usize) -> *mut u8 {
-        assert!(offset.checked_add(length).is_some_and(|end| end <= self.length), "outside of shared memory");
-        // SAFETY: inside the mapping.
-        unsafe { self.base.as_ptr().add(offset) }
-    }
-}
-
-impl Drop for Mapping {
-    fn drop(&mut self) {
-        // SAFETY: our mapping; nobody holds a reference into it longer than this.
-        unsafe { api::UnmapViewOfFile(self.base.as_ptr().cast()) };
-    }
+/// Undoes [`map`].
+///
+/// # Safety
+/// It was mapped, and nobody uses it any more.
+pub unsafe fn unmap(base: NonNull<u8>, _length: usize) {
+    // SAFETY: the caller's.
+    unsafe { api::UnmapViewOfFile(base.as_ptr().cast()) };
 }

@@ -2,6 +2,7 @@
 //! ends them when its handle is closed: also when this process is gone.
 
 use super::api::{self, Owned};
+use crate::platform::ending::Ending;
 use std::collections::BTreeSet;
 use std::io;
 use std::os::windows::io::AsRawHandle;
@@ -89,17 +90,6 @@ pub fn end_with_starter() -> io::Result<()> {
 
 /// Jobs leave nothing.
 pub fn end_started_by(_starter: u32) {}
-
-/// How a process came to its end.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Ending {
-    /// By itself, with an exit code.
-    Code(i32),
-    /// It aborted itself; how.
-    Abort(String),
-    /// It crashed; by what.
-    Crash(String),
-}
 
 /// How a process came to its end.
 pub fn ending(status: ExitStatus) -> Ending {
