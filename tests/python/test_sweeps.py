@@ -270,6 +270,8 @@ def test_limits_are_kept_with_the_sweep_and_another_number_computes_nothing_anew
 def test_the_histories_of_all_runs_are_kept_when_asked_for(run, scenario, tmp_path, way):
     out = tmp_path / "out"
     arguments = ["sweep", scenario, "--trains", "hslm-a1", "--speeds", "200,210,220", "--way", way, "-o", out]
+    run(*arguments, "--keep-histories", "all", "--dry-run")
+    assert not out.exists()
     run(*arguments, "--keep-histories", "none")
     assert not (out / "history").exists()
     tables = made(out)[:3]

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use serde_json::Value;
 use ttb_assessment::Facts;
+use ttb_passage::is_diagonal;
 use ttb_scenario::spec::Profile;
 use ttb_scenario::types::{self, CarChoice, Forces, Heading};
 use ttb_scenario::{Checked, Setting, bundled};
@@ -19,7 +20,7 @@ use crate::request::{Headings, Request};
 use crate::speeds::{self, Step};
 
 /// Largest seed: an FMI Integer holds it.
-const LARGEST_SEED: u64 = 2_147_483_647;
+pub const LARGEST_SEED: u64 = 2_147_483_647;
 /// Step of speeds where vehicles run, km/h: such a run is a thousand times as dear.
 const STEP_OF_VEHICLES: f64 = 5.0;
 
@@ -49,23 +50,13 @@ pub fn source(scenario: &Path, set: impl IntoIterator<Item = (String, Value)>) -
     Ok(Source { text, folder, name: scenario.display().to_string(), settings })
 }
 
-/// Resolves a request whose scenario is a file. `limits` are those that it names, `modal` tells whether a bridge's damping is
-/// diagonal in its modes, `version` is the program's, `beside` the folder from which the plan names its scenario.
+/// Resolves a request whose scenario is a file. `limits` are those that it names, `version` is the program's, `beside` the folder from which the plan names its scenario.
 ///
 /// # Errors
 /// Every problem of the request, a line each; those of the scenario.
-pub fn expand(
-    request: &Request,
-    version: &str,
-    beside: &Path,
-    limits: &Limits,
-    modal: &dyn Fn(&Checked) -> bool,
-) -> Result<Expanded, Error> {
+pub fn expand(request: &Request, version: &str, beside: &Path, limits: Limits) -> Result<Expanded, Error> {
     let source = source(&request.scenario, request.set.clone())?;
-    let mut expanded = of_source(request, source, relative(&request.scenario, beside), version, modal)?;
-    expanded.plan.limits.clone_from(&limits.texts);
-    expanded.plan.values = limits.values(&expanded.facts);
-    Ok(expanded)
+    of_source(request, source, relative(&request.scenario, beside), version, limits)
 }
 
 /// As [`expand`], of a scenario that was read already; the plan calls it `scenario`.
@@ -77,15 +68,17 @@ pub fn of_source(
     source: Source,
     scenario: String,
     version: &str,
-    modal: &dyn Fn(&Checked) -> bool,
+    limits: Limits,
 ) -> Result<Expanded, Error> {
     let checked = source.checked().map_err(|problems| Error::Input(problems.to_string()))?;
     let (facts, mut chosen, mut problems) = (facts::of(&checked), Vec::new(), Vec::new());
     let way = request.way.given().unwrap_or_else(|| {
-        let (way, why) = match (&request.seeds, modal(&checked)) {
-            (Some(_), _) => (Way::Coupled, "seeds have a meaning for vehicles on an irregular rail only"),
-            (None, true) => (Way::Modal, "axle loads on a bridge whose damping is diagonal in its modes"),
-            (None, false) => (Way::OneAxle, "axle loads on a linear bridge"),
+        let (way, why) = if request.seeds.is_some() {
+            (Way::Coupled, "seeds have a meaning for vehicles on an irregular rail only")
+        } else if is_diagonal(&checked.bridge) {
+            (Way::Modal, "axle loads on a bridge whose damping is diagonal in its modes")
+        } else {
+            (Way::OneAxle, "axle loads on a linear bridge")
         };
         chosen.push(format!("way: {way} ({why}); --way chooses another"));
         way
@@ -125,8 +118,8 @@ pub fn of_source(
         variants,
         rails,
         speeds_km_h,
-        limits: Vec::new(),
-        values: String::new(),
+        values: limits.values(&facts),
+        limits: limits.texts,
     };
     Ok(Expanded { plan, source, checked, facts, chosen })
 }

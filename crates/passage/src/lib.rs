@@ -44,6 +44,6 @@ pub mod statics;
 pub use extreme::Extreme;
 pub use history::Histories;
 pub use load::Heading;
-pub use modal::{ModalBridge, Refused, Settings};
+pub use modal::{ModalBridge, Refused, Settings, is_diagonal};
 pub use passage::{Passage, Response};
 pub use place::{Output, Place, PlaceKind, Quantity};

@@ -105,22 +105,30 @@ const SAMPLES: f64 = 20.0;
 /// The grid of places is a step at this speed, m/s.
 const GRID_SPEED: f64 = 5.0;
 
+/// Matrices and path of a bridge.
+fn source(spec: &BridgeSpec, settings: &Settings) -> Result<Box<dyn Source>, ModelError> {
+    let per_span = settings.points_per_span.max(20);
+    Ok(match &spec.structure {
+        StructureSpec::Beams { .. } | StructureSpec::Frame(_) => Box::new(Plane::new(spec, per_span, settings.forces)?),
+        StructureSpec::FiniteElements(_) | StructureSpec::Matrices { .. } => Box::new(Sampled::new(spec, per_span)?),
+        StructureSpec::Stored => return Err(ModelError("bridge: a stored bridge has no path".into())),
+    })
+}
+
+/// Whether [`ModalBridge::new`] would not refuse the bridge as [`Refused::NotDiagonal`]; the matrices tell, no mode is sought. A
+/// bridge that cannot be built passes: why not is told by whoever builds it.
+#[must_use]
+pub fn is_diagonal(spec: &BridgeSpec) -> bool {
+    source(spec, &Settings::default()).map_or(true, |source| !source.pencil().has_dashpots())
+}
+
 impl ModalBridge {
     /// Of a specification; its supports, step and end do not matter.
     ///
     /// # Errors
     /// Its modes are coupled by dashpots; anything in it that cannot be.
     pub fn new(spec: &BridgeSpec, settings: &Settings) -> Result<Self, Refused> {
-        let per_span = settings.points_per_span.max(20);
-        match &spec.structure {
-            StructureSpec::Beams { .. } | StructureSpec::Frame(_) => {
-                Self::of(&Plane::new(spec, per_span, settings.forces)?, spec, settings)
-            }
-            StructureSpec::FiniteElements(_) | StructureSpec::Matrices { .. } => {
-                Self::of(&Sampled::new(spec, per_span)?, spec, settings)
-            }
-            StructureSpec::Stored => Err(Refused::Model(ModelError("bridge: a stored bridge has no path".into()))),
-        }
+        Self::of(&*source(spec, settings)?, spec, settings)
     }
 
     /// Influence lines alone, without any mode: for static answers of every bridge, also of one with dashpots. Passages over
@@ -129,19 +137,10 @@ impl ModalBridge {
     /// # Errors
     /// Anything in the specification that cannot be.
     pub fn of_statics(spec: &BridgeSpec, settings: &Settings) -> Result<Self, ModelError> {
-        let per_span = settings.points_per_span.max(20);
-        match &spec.structure {
-            StructureSpec::Beams { .. } | StructureSpec::Frame(_) => {
-                Self::made(&Plane::new(spec, per_span, settings.forces)?, Vec::new(), Vec::new(), settings)
-            }
-            StructureSpec::FiniteElements(_) | StructureSpec::Matrices { .. } => {
-                Self::made(&Sampled::new(spec, per_span)?, Vec::new(), Vec::new(), settings)
-            }
-            StructureSpec::Stored => Err(ModelError("bridge: a stored bridge has no path".into())),
-        }
+        Self::made(&*source(spec, settings)?, Vec::new(), Vec::new(), settings)
     }
 
-    fn of(source: &impl Source, spec: &BridgeSpec, settings: &Settings) -> Result<Self, Refused> {
+    fn of(source: &dyn Source, spec: &BridgeSpec, settings: &Settings) -> Result<Self, Refused> {
         let pencil = source.pencil();
         if pencil.has_dashpots() {
             return Err(Refused::NotDiagonal);
@@ -182,7 +181,7 @@ impl ModalBridge {
 
     /// Of modes under the factors in force.
     fn made(
-        source: &impl Source,
+        source: &dyn Source,
         modes: Vec<Oscillator>,
         shapes: Vec<Vec<f64>>,
         settings: &Settings,
@@ -333,7 +332,7 @@ fn grouped(rows: &[Vec<f64>], chosen: &[usize]) -> Vec<[f64; WIDE]> {
 
 /// The modes that a force on the deck excites.
 fn excited(
-    source: &impl Source,
+    source: &dyn Source,
     oscillators: Vec<Oscillator>,
     shapes: Vec<Vec<f64>>,
 ) -> (Vec<Oscillator>, Vec<Vec<f64>>) {

@@ -9,8 +9,6 @@ use ttb_campaign::expand::{self, Expanded};
 use ttb_campaign::limits::Limits;
 use ttb_campaign::runner::Kept;
 use ttb_campaign::{Compute, Computed, Record, Run, Runner};
-use ttb_passage::{ModalBridge, Refused, Settings};
-use ttb_scenario::Checked;
 use ttb_scenario::spec::Profile;
 
 use crate::fault::Fault;
@@ -38,14 +36,9 @@ impl Session {
         let source =
             Source { text: asked.scenario.clone(), folder: folder.into(), name: SCENARIO.into(), settings: Vec::new() };
         room.scenario(&source.checked().map_err(|problems| Fault::of(&problems))?)?;
-        let modal = |checked: &Checked| {
-            !matches!(ModalBridge::new(&checked.bridge, &Settings::default()), Err(Refused::NotDiagonal))
-        };
         let limits = Limits { texts: asked.limits.texts()? };
         limits.criteria()?;
-        let mut expanded = expand::of_source(&asked.request(), source, SCENARIO.into(), VERSION, &modal)?;
-        expanded.plan.values = limits.values(&expanded.facts);
-        expanded.plan.limits = limits.texts;
+        let expanded = expand::of_source(&asked.request(), source, SCENARIO.into(), VERSION, limits)?;
         room.plan(&expanded)?;
         Ok(Self { asked, expanded, kept: Kept::default() })
     }

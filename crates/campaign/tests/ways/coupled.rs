@@ -154,8 +154,7 @@ fn a_request_names_all_its_problems_at_once() {
         variants: ttb_campaign::request::Variants::Word("bound".into()),
         ..Request::default()
     };
-    let error =
-        expand::expand(&request, "0", Path::new(""), &Limits::default(), &|_| true).err().expect("refused").to_string();
+    let error = expand::expand(&request, "0", Path::new(""), Limits::default()).err().expect("refused").to_string();
     for told in ["hslm-z", "must rise", "seeds", "`bound`"] {
         assert!(error.contains(told), "{told}: {error}");
     }

@@ -8,7 +8,6 @@ use ttb_campaign::plan::Plan;
 use ttb_campaign::request::Request;
 use ttb_campaign::status::Status;
 use ttb_campaign::{Folder, Limits, Runner, Shard, facts};
-use ttb_passage::{ModalBridge, Refused, Settings};
 
 use super::estimate::estimate;
 use super::outcome;
@@ -33,13 +32,10 @@ pub fn request(request: &Request, common: &Common, stop: &Stop) -> Result<(), Er
 
 /// Resolves a request; the plan names its scenario from the folder `beside`.
 pub fn expand(request: &Request, beside: &Path) -> Result<Expanded, Error> {
-    let modal = |checked: &ttb_scenario::Checked| {
-        !matches!(ModalBridge::new(&checked.bridge, &Settings::default()), Err(Refused::NotDiagonal))
-    };
     let texts = if request.limits.is_empty() { Vec::new() } else { limits::texts(&request.limits)? };
     let limits = Limits { texts };
     limits.criteria()?;
-    Ok(expand::expand(request, VERSION, beside, &limits, &modal)?)
+    Ok(expand::expand(request, VERSION, beside, limits)?)
 }
 
 /// A stored plan with its scenario, which must mean what it meant.
@@ -68,12 +64,12 @@ pub fn compute(expanded: Expanded, common: &Common, stop: &Stop) -> Result<(), E
         return Err(Error::Input("no run is asked for: every train's greatest speed is below the first speed".into()));
     }
     let workers = common.jobs.unwrap_or_else(processors).max(1);
-    let all = common.keep_histories == Keep::All;
     let runner = Runner::new(&expanded)?;
-    let runner = if all { runner.keeping(&common.output) } else { runner };
     if common.dry_run {
-        return estimate(&expanded.plan, &runner, common, workers, stop);
+        return estimate(&expanded.plan, &runner, common, workers);
     }
+    let all = common.keep_histories == Keep::All;
+    let runner = if all { runner.keeping(&common.output) } else { runner };
     let shard = common.shard.unwrap_or(Shard::WHOLE);
     // Shards of one campaign write into one folder at the same time, each its own files.
     let claimed = if shard == Shard::WHOLE { Some(Claimed::claim(&common.output, stop)?) } else { None };

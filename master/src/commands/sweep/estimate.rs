@@ -8,13 +8,12 @@ use ttb_campaign::{Compute, Computed, Runner, Shard};
 use super::progress::duration;
 use crate::cli::Common;
 use crate::error::Error;
-use crate::signals::Stop;
 
 /// Bytes on disk for one in the journal: its share of the tables.
 const TABLES: f64 = 2.0;
 
 /// Prints it; the run in the middle of the plan is computed for it and not kept.
-pub fn estimate(plan: &Plan, runner: &Runner, common: &Common, workers: usize, stop: &Stop) -> Result<(), Error> {
+pub fn estimate(plan: &Plan, runner: &Runner, common: &Common, workers: usize) -> Result<(), Error> {
     let runs = plan.runs();
     let shard = common.shard.unwrap_or(Shard::WHOLE);
     let count = (0..runs.len()).filter(|i| shard.has(*i)).count();
@@ -27,8 +26,7 @@ pub fn estimate(plan: &Plan, runner: &Runner, common: &Common, workers: usize, s
         plan.way
     );
     let middle = &runs[runs.len() / 2..=runs.len() / 2];
-    let (never, _) = (AtomicBool::new(false), stop);
-    for computed in runner.compute(middle, &never) {
+    for computed in runner.compute(middle, &AtomicBool::new(false)) {
         let Computed::Done(record) = computed else { continue };
         if let Some(error) = record.error {
             return Err(Error::Input(format!("the run in the middle of the plan fails: {error}")));
