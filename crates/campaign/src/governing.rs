@@ -1,9 +1,11 @@
 //! The runs with the largest deck acceleration and the largest deflection, and what the coupled way says of them.
 
+use std::collections::BTreeMap;
+
 use serde::{Deserialize, Serialize};
 
 use crate::error::Error;
-use crate::plan::Run;
+use crate::plan::{Plan, Run};
 use crate::record::{Record, Records};
 use crate::refine::Key;
 
@@ -69,8 +71,17 @@ pub struct Compared {
     pub allowed: f64,
 }
 
+/// Compares all governing runs with their repetitions, as far as there are any, by the ids of the runs.
+pub fn all_compared(plan: &Plan, governing: &[Governing], again: &BTreeMap<String, Record>) -> Vec<Compared> {
+    let one = |one: &Governing| {
+        let names = [&plan.trains[one.run.train].name, &plan.variants[one.run.variant].name];
+        compared(one, again.get(&one.run.id)?, names.map(String::as_str))
+    };
+    governing.iter().filter_map(one).collect()
+}
+
 /// Compares a governing run with its repetition.
-pub fn compared(governing: &Governing, again: &Record, [train, variant]: [&str; 2]) -> Option<Compared> {
+fn compared(governing: &Governing, again: &Record, [train, variant]: [&str; 2]) -> Option<Compared> {
     let (quantity, filter) = &governing.key;
     let coupled = again.amount(quantity, filter)?;
     let allowed = ALLOWED[usize::from(!quantity.ends_with("acceleration"))];

@@ -239,6 +239,12 @@ impl Plan {
         Run { id, train, variant, rail, speed_km_h, refined }
     }
 
+    /// Train, variant and rail for people, as far as they have names.
+    pub fn title(&self, train: usize, variant: usize, rail: Rail) -> String {
+        let parts = [&self.trains[train].name, &self.variants[variant].name, &rail.to_string()];
+        parts.into_iter().filter(|part| !part.is_empty()).cloned().collect::<Vec<_>>().join(", ")
+    }
+
     /// Reads a stored plan.
     ///
     /// # Errors

@@ -15,6 +15,7 @@ use crate::compute::{Compute, Computed};
 use crate::coupled::{Bridges, Loads, Shared, Source, Vehicles};
 use crate::error::Error;
 use crate::expand::Expanded;
+use crate::governing::Governing;
 use crate::history::History;
 use crate::limits::Limits;
 use crate::modal::{self, Modal, force_train};
@@ -27,6 +28,9 @@ use crate::refine::Refined;
 const WAVELENGTHS: [f64; 2] = [4.5, 40.0];
 /// Damping ratio with which they are sought: it moves them little.
 const DAMPING: f64 = 0.01;
+
+/// A run once more: its history, and of axle loads its record. `None` if it was asked to stop; why it failed, a sentence.
+pub type Again = Result<Option<(Option<Record>, History)>, String>;
 
 /// The ways over one plan.
 pub struct Runner<'a> {
@@ -67,13 +71,7 @@ impl<'a> Runner<'a> {
     pub fn with(expanded: &'a Expanded, kept: Kept) -> Result<Self, Error> {
         let Expanded { plan, source, facts, .. } = expanded;
         let criteria = Limits { texts: plan.limits.clone() }.criteria()?;
-        let mut filters: Vec<Filter> = Vec::new();
-        for wanted in criteria.wanted(&facts.overruled_by(&criteria.facts)) {
-            if wanted.quantity == DECK_ACCELERATION && wanted.filter != Filter::Raw && !filters.contains(&wanted.filter)
-            {
-                filters.push(wanted.filter);
-            }
-        }
+        let filters = criteria.filters(DECK_ACCELERATION, facts);
         let judged = filters.first().copied().unwrap_or(Filter::Raw);
         let one_axle = OneAxle::new(plan, source, facts, filters.clone()).with(kept.one_axle.clone());
         let modal = Modal::new(plan, source, filters).with(kept.modal.clone());
@@ -107,12 +105,7 @@ impl<'a> Runner<'a> {
     ///
     /// # Errors
     /// Why it failed, a sentence.
-    pub fn again(
-        &self,
-        run: &Run,
-        step: Option<f64>,
-        stop: &AtomicBool,
-    ) -> Result<Option<(Option<Record>, History)>, String> {
+    pub fn again(&self, run: &Run, step: Option<f64>, stop: &AtomicBool) -> Again {
         match self.plan.trains[run.train].load {
             Load::Axles(_) => {
                 let again = self.loads(step).run(run, stop)?;
@@ -120,6 +113,33 @@ impl<'a> Runner<'a> {
             }
             Load::Cars(_) | Load::Scenario => Ok(self.vehicles().history(run, stop)?.map(|history| (None, history))),
         }
+    }
+
+    /// Every governing run once more, those that govern several quantities once, at the same time if there is more than one
+    /// worker; their ids beside them. Behind one that was asked to stop no other begins.
+    pub fn again_each(&self, governing: &[Governing], workers: usize, stop: &AtomicBool) -> Vec<(String, Again)> {
+        let mut once: Vec<&Governing> = Vec::new();
+        for one in governing {
+            if !once.iter().any(|other| other.run.id == one.run.id) {
+                once.push(one);
+            }
+        }
+        let again = |one: &Governing| (one.run.id.clone(), self.again(&one.run, one.step, stop));
+        if workers > 1 {
+            return std::thread::scope(|scope| {
+                let threads: Vec<_> = once.iter().map(|one| (one, scope.spawn(|| again(one)))).collect();
+                let died = |one: &Governing| (one.run.id.clone(), Err("it ended by a panic".into()));
+                threads.into_iter().map(|(one, thread)| thread.join().unwrap_or_else(|_| died(one))).collect()
+            });
+        }
+        let mut all = Vec::with_capacity(once.len());
+        for one in once {
+            all.push(again(one));
+            if matches!(all.last(), Some((_, Ok(None)))) {
+                break;
+            }
+        }
+        all
     }
 
     /// Runs of axle loads step by step, with another step than the scenario's.

@@ -8,7 +8,7 @@ use ttb_assessment::peak::quantity::{
 };
 use ttb_assessment::{Criteria, Verdict, Verdicts, judge};
 use ttb_campaign::governing::{self, Compared, FILE as CHECK};
-use ttb_campaign::plan::FILE as PLAN;
+use ttb_campaign::plan::{FILE as PLAN, Plan};
 use ttb_campaign::refine::{Known, Refinement};
 use ttb_campaign::{Record, Run, tables};
 use ttb_dossier::{Memory, Opened};
@@ -113,12 +113,12 @@ pub fn outcome(session: &Session, records: &Records, limits: &Limits) -> Result<
     let files = folder(session, records, &[], "")?;
     let opened = Opened::new(&files)?;
     let verdicts = judge(&criteria, &opened.assessment.facts, &opened.results);
-    let charts = charts(&runs, &opened, &verdicts, &|run| name(session, run));
+    let charts = charts(&runs, &opened, &verdicts, plan);
     let governing = governing::of(&runs, &session.runner()?.refined().keys, records)?;
     let failed = records.iter().filter_map(|(id, record)| Some([id.clone(), record.error.clone()?]));
     let told = |one: governing::Governing| {
         let speed = one.run.speed_km_h.map_or_else(String::new, |speed| format!(" at {speed} km/h"));
-        let title = format!("{}{speed}", name(session, &one.run));
+        let title = format!("{}{speed}", plan.title(one.run.train, one.run.variant, one.run.rail));
         let (quantity, filter) = one.key;
         Governing { quantity, filter, value: one.value, run: (&one.run).into(), run_id: one.run.id, title }
     };
@@ -132,14 +132,7 @@ pub fn outcome(session: &Session, records: &Records, limits: &Limits) -> Result<
     })
 }
 
-/// Train, variant and rail of a run.
-fn name(session: &Session, run: &Run) -> String {
-    let plan = &session.expanded.plan;
-    let parts = [plan.trains[run.train].name.clone(), plan.variants[run.variant].name.clone(), run.rail.to_string()];
-    parts.into_iter().filter(|part| !part.is_empty()).collect::<Vec<_>>().join(", ")
-}
-
-fn charts(runs: &[Run], opened: &Opened, verdicts: &Verdicts, name: &dyn Fn(&Run) -> String) -> Vec<Chart> {
+fn charts(runs: &[Run], opened: &Opened, verdicts: &Verdicts, plan: &Plan) -> Vec<Chart> {
     let by_id: BTreeMap<&str, &Run> = runs.iter().map(|run| (run.id.as_str(), run)).collect();
     let mut found: BTreeMap<(usize, String), Lines> = BTreeMap::new();
     for (of, peak) in &opened.results.rows {
@@ -148,7 +141,7 @@ fn charts(runs: &[Run], opened: &Opened, verdicts: &Verdicts, name: &dyn Fn(&Run
         let Some(speed) = run.speed_km_h else { continue };
         let lines = found.entry((at, peak.filter.to_string())).or_default();
         let line = lines.entry((run.train, run.variant, run.rail.to_string()));
-        let (_, points) = line.or_insert_with(|| (name(run), Points::new()));
+        let (_, points) = line.or_insert_with(|| (plan.title(run.train, run.variant, run.rail), Points::new()));
         // Speeds are positive: their bits rise with them.
         let value = points.entry(speed.to_bits()).or_insert(f64::NEG_INFINITY);
         *value = value.max(if peak.quantity == PHI_DYN { peak.value } else { peak.value.abs() });
@@ -221,20 +214,14 @@ pub fn again(
     stop: &std::sync::atomic::AtomicBool,
 ) -> Result<Option<Vec<Compared>>, Fault> {
     let (plan, runner) = (&session.expanded.plan, session.runner()?);
-    let (mut compared, mut known) = (Vec::new(), BTreeMap::<String, Option<Record>>::new());
     if plan.way == ttb_campaign::Way::Coupled {
-        return Ok(Some(compared));
+        return Ok(Some(Vec::new()));
     }
-    for one in governing::of(&runs(session, records)?, &runner.refined().keys, records)? {
-        if !known.contains_key(&one.run.id) {
-            let Some((record, _)) = runner.again(&one.run, one.step, stop).map_err(Fault::new)? else {
-                return Ok(None);
-            };
-            known.insert(one.run.id.clone(), record);
-        }
-        let names = [plan.trains[one.run.train].name.as_str(), plan.variants[one.run.variant].name.as_str()];
-        let record = known.get(&one.run.id).and_then(Option::as_ref);
-        compared.extend(record.and_then(|record| governing::compared(&one, record, names)));
+    let governing = governing::of(&runs(session, records)?, &runner.refined().keys, records)?;
+    let mut again = Records::new();
+    for (id, one) in runner.again_each(&governing, 1, stop) {
+        let Some((record, _)) = one.map_err(Fault::new)? else { return Ok(None) };
+        again.extend(record.map(|record| (id, record)));
     }
-    Ok(Some(compared))
+    Ok(Some(governing::all_compared(plan, &governing, &again)))
 }

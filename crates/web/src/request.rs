@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 use ttb_assessment::Criteria;
 use ttb_assessment::criterion::{self, DEFAULT};
+use ttb_campaign::expand::LARGEST_SEED;
 use ttb_campaign::limits;
 use ttb_campaign::list::{self, Written};
 use ttb_campaign::plan::{Plan, Rail, Run};
@@ -11,8 +12,6 @@ use ttb_scenario::bundled;
 
 use crate::fault::Fault;
 
-/// Largest seed: an FMI Integer holds it.
-const LARGEST_SEED: u64 = 2_147_483_647;
 /// How the page's scenario is called in messages, plans and saved folders.
 pub const SCENARIO: &str = "scenario.json";
 

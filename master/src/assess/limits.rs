@@ -4,14 +4,13 @@ use std::path::Path;
 
 use ttb_assessment::Criteria;
 use ttb_assessment::criterion::{self, DEFAULT};
+use ttb_campaign::Limits;
 
 use crate::error::Error;
 
 /// The criteria of `--limits A,B,FILE.json`; without any the default set. A name that ends in `.json` is a file.
 pub fn load(names: &[String]) -> Result<Criteria, Error> {
-    let texts = texts(names)?;
-    let read = Criteria::read(texts.iter().map(|[name, text]| (name.as_str(), text.as_str())));
-    read.map_err(|problems| Error::Input(problems.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n")))
+    Ok(Limits { texts: texts(names)? }.criteria()?)
 }
 
 /// Name and content of the files that [`load`] reads.

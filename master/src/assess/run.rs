@@ -49,7 +49,8 @@ pub fn write(
     if !histories.deck.is_empty() {
         let points = histories.points.iter().chain(&histories.deck).cloned().collect();
         let along = Histories { time: histories.time.clone(), points, ..Histories::default() };
-        let mut envelopes = envelopes(&along, &judged(criteria, facts));
+        let judged = criteria.filters(DECK_ACCELERATION, facts).first().copied().unwrap_or(Filter::Raw);
+        let mut envelopes = envelopes(&along, &judged);
         envelopes.iter_mut().flat_map(|one| &mut one.x).for_each(|x| *x = written(*x));
         tables::write_envelopes(folder, &run.run_id, &envelopes)?;
     }
@@ -61,14 +62,6 @@ pub fn write(
         losses: reduced.losses,
     };
     files::write_json(&folder.join(FILE), &assessment)
-}
-
-/// The filter behind which the deck's acceleration is judged.
-fn judged(criteria: &Criteria, facts: &Facts) -> Filter {
-    let facts = facts.overruled_by(&criteria.facts);
-    let wanted = criteria.wanted(&facts);
-    let of_deck = wanted.iter().find(|one| one.quantity == DECK_ACCELERATION && one.filter != Filter::Raw);
-    of_deck.map_or(Filter::Raw, |one| one.filter)
 }
 
 /// The shortest form of a time n h or of a place n d: 1.533, where the product of binary numbers is 1.5330000000000001.

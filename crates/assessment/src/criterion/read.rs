@@ -87,6 +87,19 @@ impl Criteria {
     }
 }
 
+impl Criteria {
+    /// The filters behind which a quantity is judged, each once, in the order of the criteria.
+    pub fn filters(&self, quantity: &str, facts: &Facts) -> Vec<Filter> {
+        let mut filters = Vec::new();
+        for wanted in self.wanted(&facts.overruled_by(&self.facts)) {
+            if wanted.quantity == quantity && wanted.filter != Filter::Raw && !filters.contains(&wanted.filter) {
+                filters.push(wanted.filter);
+            }
+        }
+        filters
+    }
+}
+
 /// A reduced value that a criterion asks for.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Wanted {

@@ -1,12 +1,12 @@
 //! After the last run: tables, the governing runs once more, curves, a summary, the next command.
 
+use std::collections::BTreeMap;
 use std::path::Path;
 
 use ttb_assessment::filter::RAW;
 use ttb_assessment::peak::quantity::{DECK_ACCELERATION, DECK_DISPLACEMENT};
 use ttb_campaign::expand::Expanded;
 use ttb_campaign::governing::{self, Compared, Governing};
-use ttb_campaign::history::History;
 use ttb_campaign::plan::{Load, Plan};
 use ttb_campaign::slurm::quoted;
 use ttb_campaign::status::Status;
@@ -100,52 +100,25 @@ fn again(
     if coupled && keep != Keep::Worst {
         return Ok(Vec::new());
     }
-    let mut once: Vec<&Governing> = Vec::new();
-    for one in governing {
-        if !once.iter().any(|other| other.run.id == one.run.id) {
-            once.push(one);
-        }
-    }
-    let mut compared = Vec::new();
-    let mut known: Vec<(String, Option<ttb_campaign::Record>)> = Vec::new();
-    for (one, again) in once.iter().zip(each_once_more(runner, &once, workers, stop)) {
+    let mut repeated = BTreeMap::new();
+    for (id, again) in runner.again_each(governing, workers, stop.flag()) {
         match again {
             Ok(Some((record, history))) => {
                 if keep == Keep::Worst {
-                    history.write(folder.path(), &one.run.id)?;
+                    history.write(folder.path(), &id)?;
                 }
-                known.push((one.run.id.clone(), record));
+                repeated.extend(record.map(|record| (id, record)));
             }
             Ok(None) => return stop.asked().map_or(Ok(Vec::new()), |signal| Err(Error::Interrupted(signal))),
-            Err(error) => note!("ttb: warning: the governing run {} could not be repeated: {error}", one.run.id),
+            Err(error) => note!("ttb: warning: the governing run {id} could not be repeated: {error}"),
         }
     }
     if coupled {
         return Ok(Vec::new());
     }
-    for one in governing {
-        let record = known.iter().find(|(id, _)| *id == one.run.id).and_then(|(_, record)| record.as_ref());
-        let names = [&folder.plan.trains[one.run.train].name, &folder.plan.variants[one.run.variant].name];
-        compared.extend(record.and_then(|record| governing::compared(one, record, names.map(String::as_str))));
-    }
+    let compared = governing::all_compared(&folder.plan, governing, &repeated);
     write_json(&folder.path().join(governing::FILE), &compared)?;
     Ok(compared)
-}
-
-/// A run with its history, and of axle loads its record.
-type Again = Result<Option<(Option<ttb_campaign::Record>, History)>, String>;
-
-/// The few runs that govern, at the same time if there is more than one worker.
-fn each_once_more(runner: &Runner, runs: &[&Governing], workers: usize, stop: &Stop) -> Vec<Again> {
-    let flag = stop.flag();
-    let again = |one: &Governing| runner.again(&one.run, one.step, flag);
-    if workers < 2 {
-        return runs.iter().map(|one| again(one)).collect();
-    }
-    std::thread::scope(|scope| {
-        let threads: Vec<_> = runs.iter().map(|one| scope.spawn(|| again(one))).collect();
-        threads.into_iter().map(|one| one.join().unwrap_or_else(|_| Err("it ended by a panic".into()))).collect()
-    })
 }
 
 fn sentence(plan: &Plan, one: &Governing) -> String {
@@ -200,8 +173,7 @@ fn curves(folder: &Folder, runs: &[Run], title: &str) -> Result<(), Error> {
                         points.extend(record.amount(quantity, RAW).map(|value| (speed, factor * value)));
                     }
                 }
-                let parts = [&plan.trains[train].name, &plan.variants[variant].name, &rail.to_string()];
-                let name = parts.into_iter().filter(|part| !part.is_empty()).cloned().collect::<Vec<_>>().join(", ");
+                let name = plan.title(train, variant, *rail);
                 for (lines, mut points) in lines.iter_mut().zip(points) {
                     points.sort_by(|a, b| a.0.total_cmp(&b.0));
                     lines.push((name.clone(), points));
