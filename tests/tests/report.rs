@@ -7,7 +7,7 @@ use ttb_record::{BLESS, Table, blessing, folder};
 use ttb_tests::{examples, ttb};
 
 /// Headings, and the records below them by title.
-const SECTIONS: [(&str, &[&str]); 6] = [
+const SECTIONS: [(&str, &[&str]); 7] = [
     ("Train", &["cars on a rigid rail, Hz", "static axle loads, kN"]),
     (
         "Track",
@@ -73,6 +73,20 @@ const SECTIONS: [(&str, &[&str]); 6] = [
             "R1, irregular, 1 ms",
             "R1, linear contact, 0.05 ms",
             "methods of the paper: where the loosely coupled one stops converging, ms",
+        ],
+    ),
+    (
+        "Train and track in space",
+        &[
+            "cars in space with held wheelsets, Hz",
+            "a wheelset on springs begins to hunt, m/s",
+            "growth of a wheelset's hunting in steps of 1 ms, 1/s",
+            "cars begin to hunt on rigid rails",
+            "free wheelset on a cone",
+            "order of the steps of a car in space",
+            "rail's head under 10 kN across, mm",
+            "girder under forces across and about the track",
+            "R1 in space, irregular, 1 ms",
         ],
     ),
 ];

@@ -9,6 +9,7 @@ use serde_json::{Value, json};
 use ttb_bridge::Bridge;
 use ttb_bridge::space::{Statics, assemble, self_check};
 use ttb_contract::{Instance, Model as _};
+use ttb_record::Table;
 use ttb_scenario::ground::GroundSeries;
 use ttb_scenario::spec::{BridgeSpec, StructureSpec};
 use ttb_scenario::types::{Damping, DeckCarrier, Direction, Model, Point, RayleighAt, Reduction};
@@ -251,11 +252,13 @@ const MIDDLE: [&str; 3] = ["support[2].displacement", "support[2].displacement_y
 #[test]
 fn forces_across_and_about_the_track_bend_and_twist_the_deck() {
     let [bend, sway, twist] = [L.powi(3) / (48.0 * EI), L.powi(3) / (48.0 * EI_Z), L / (4.0 * GJ)];
+    let source = "fork ends, 10 kN and 10 kN m at mid-span: P L³/48EI, P L³/48EI_z, T L/4GJ; y 1.2 m, h 0.7 m";
+    let mut table = Table::new("girder under forces across and about the track", source, "-p ttb-bridge --test space");
     let centred = in_space(girder(20, 0.0));
     let across = at_rest(&centred, &[("support[2].force_y", 1e4)], &MIDDLE);
-    near("P L³/48 EI_z", across[1], 1e4 * sway, 1e-9);
+    table.row("lateral displacement by a lateral force, m", 1e4 * sway, across[1], 1e-9);
     let about = at_rest(&centred, &[("support[2].moment_x", 1e4)], &MIDDLE);
-    near("T L/4 GJ", about[2], 1e4 * twist, 1e-9);
+    table.row("rotation by a moment, rad", 1e4 * twist, about[2], 1e-9);
     let off = [across[0], across[2], about[0], about[1]];
     assert!(off.iter().all(|x| x.abs() < 1e-15), "a force on the axis moves its own direction alone: {off:?}");
     // Eccentric by y, the reference point above the axis by h: u_z = r y, u_y = r h.
@@ -264,12 +267,13 @@ fn forces_across_and_about_the_track_bend_and_twist_the_deck() {
     eccentric.deck.z = Some(-h);
     let eccentric = in_space(eccentric);
     let down = at_rest(&eccentric, &[("support[2].force", 1e4)], &MIDDLE);
-    near("down, eccentric", down[0], 1e4 * (bend + y * y * twist), 1e-9);
-    near("sway of the reference point", down[1], 1e4 * h * y * twist, 1e-9);
-    near("twist", down[2], 1e4 * y * twist, 1e-9);
+    table.row("beside the axis: down by a force down, m", 1e4 * (bend + y * y * twist), down[0], 1e-9);
+    table.row("across by a force down, m", 1e4 * h * y * twist, down[1], 1e-9);
+    table.row("rotation by a force down, rad", 1e4 * y * twist, down[2], 1e-9);
     let across = at_rest(&eccentric, &[("support[2].force_y", 1e4)], &MIDDLE);
-    near("across, above the axis", across[1], 1e4 * (sway + h * h * twist), 1e-9);
-    near("down by a force across", across[0], 1e4 * h * y * twist, 1e-9);
+    table.row("across by a lateral force, m", 1e4 * (sway + h * h * twist), across[1], 1e-9);
+    table.row("down by a lateral force, m", 1e4 * h * y * twist, across[0], 1e-9);
+    table.finish();
 }
 
 /// On beams, on nodes, on shells: after a step.

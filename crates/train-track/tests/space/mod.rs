@@ -3,14 +3,17 @@
 use std::path::Path;
 
 use ttb_contract::{Instance, Model};
+use ttb_record::Table;
 use ttb_scenario::from_str;
-use ttb_scenario::spec::{Profile, SpaceSpec, TrainTrackSpec};
+use ttb_scenario::spec::{LinkLaw, Profile, SpaceCar, SpaceSpec, TrainTrackSpec};
 use ttb_scenario::types::{Creep, ProfileCurve, ProfilePiece, ProfileShape, Ramp, RampShape, Wave};
 use ttb_train_track::TrainTrack;
 
 use crate::common::{started, value};
 
+mod alone;
 mod known;
+mod order;
 mod rough;
 mod stability;
 
@@ -31,6 +34,20 @@ pub fn spec(car: &str, speed: f64) -> TrainTrackSpec {
 
 pub fn space(spec: &mut TrainTrackSpec) -> &mut SpaceSpec {
     spec.space.as_mut().expect("in space")
+}
+
+/// The data of a car; the Manchester car with the primary springs of the benchmark, 1.22e6 N/m an axle box.
+pub fn of_benchmark(name: &str) -> SpaceCar {
+    let mut data = space(&mut spec(name, 40.0)).cars[0].clone();
+    for link in &mut data.links {
+        if let LinkLaw::Linear { stiffness, .. } = &mut link.law
+            && name == "manchester"
+            && stiffness[2] == 1.2e6
+        {
+            stiffness[2] = 1.22e6;
+        }
+    }
+    data
 }
 
 pub fn waves(waves: &[(f64, f64)]) -> Profile {
