@@ -1,6 +1,7 @@
-//! Whole runs in space: R1 against its printed values.
+//! Whole runs in space: R1 against its printed values, three forces a support against one system solved at once.
 
 use ttb_record::Table as Record;
+use ttb_reference::space::Whole;
 use ttb_scenario::types::{ProfileCurve, ProfilePiece, ProfileShape};
 use ttb_scenario::{Checked, from_str};
 use ttb_tests::{examples, library_run};
@@ -51,4 +52,68 @@ fn r1_in_space_has_its_printed_digits() {
     record.finish();
     let (low, high) = table.range("wheel[1].lateral_displacement");
     assert!(low.abs().max(high.abs()) < 1e-12, "{low} … {high} m to the side");
+}
+
+/// A car over a girder beside whose axis it runs, on waves that bring flanges to the rails.
+fn over_a_girder(track: &str, bays: usize) -> Checked {
+    let text = format!(
+        r#"{{"title": "a girder", "train": {{"cars": ["ice3-trailer"], "front_wheel": 32, "speed": {{"m_s": 60}},
+            "pre_roll": 0}},
+            "space": {{"irregularity": {{"type": "harmonics", "alignment": [{{"amplitude": 5e-3, "wavelength": 14}}],
+            "cross_level": [{{"amplitude": 2e-3, "wavelength": 9}}], "gauge": [{{"amplitude": 1e-3, "wavelength": 7}}],
+            "origin": 33, "ramp": {{"start": 33, "length": 6}}}}}},
+            "irregularity": {{"type": "harmonics", "waves": [{{"amplitude": 1e-3, "wavelength": 11}}], "origin": 33,
+            "ramp": {{"start": 33, "length": 6}}}},
+            "track": {{"type": "{track}", "from": 0, "bays": {bays}, "elements_per_bay": 1}},
+            "bridge": {{"at": 39, "structure": {{"type": "finite-elements", "model": "bridges/girder-beam.json"}},
+            "damping": {{"type": "rayleigh", "ratio": 0.02, "at": {{"first_times": 4}}}},
+            "points": [{{"name": "mid", "x": 16}}, {{"name": "sway", "x": 16, "direction": "y"}}]}},
+            "time": {{"step": 0.001, "end": 0.4}}, "coupling": {{"tolerance": 1e-11}}}}"#
+    );
+    from_str(&text, &examples(), "girder.json").unwrap_or_else(|problems| panic!("{problems}"))
+}
+
+/// Histories of both within 1e-9 of their greatest value.
+fn compare_with_one_system(checked: &Checked) {
+    let table = library_run(checked);
+    let mut whole = Whole::new(&checked.train_track, &checked.bridge).expect("a case that the plain solver knows");
+    let mut found = vec![Vec::new(); NAMES.len()];
+    for step in 0..table.time.len() {
+        if step > 0 {
+            whole.advance().expect("a step");
+        }
+        let ([down, _], [across, fast]) = (whole.point(0), whole.point(1));
+        let ([y, q], body, axle) = (whole.wheel(1, 1), whole.car(0, 0)[1], whole.car(0, 15)[0]);
+        let all = [down, across, fast, body, axle, y, q];
+        found.iter_mut().zip(all).for_each(|(column, value)| column.push(value));
+    }
+    for (name, own) in NAMES.iter().zip(&found) {
+        let hybrid = table.column(name);
+        let scale = own.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+        // At rest the product tells the forces with creep, which begins with the first step.
+        let off = hybrid.iter().zip(own).skip(1).fold(0.0_f64, |most, (a, b)| most.max((a - b).abs())) / scale;
+        assert!(off < 1e-9, "{name}: the coupled run and the one system differ by {off:e} of {scale}");
+    }
+    let (_, most) = table.range("wheel[2].right.lateral_offset");
+    assert!(most > 6.2e-3, "no flange was reached: {most} m");
+}
+
+const NAMES: [&str; 7] = [
+    "point[mid].displacement",
+    "point[sway].displacement",
+    "point[sway].acceleration",
+    "car[1].acceleration_y",
+    "wheel[1].lateral_displacement",
+    "wheel[2].right.lateral_force",
+    "wheel[2].right.vertical_force",
+];
+
+#[test]
+fn three_forces_a_support_give_the_solution_of_one_system() {
+    compare_with_one_system(&over_a_girder("slab", 118));
+}
+
+#[test]
+fn also_on_sleepers() {
+    compare_with_one_system(&over_a_girder("ballast-two-layer", 140));
 }

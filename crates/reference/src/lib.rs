@@ -11,7 +11,7 @@
 //!
 //! [`monolithic`] is the strongly coupled method a second time, as plainly as possible: it assembles its own matrices from
 //! the specifications ([`assembly`]), refactorises in every iteration, and shares with the product only the beam element and
-//! the sparse solver. It is the independent check of everything between.
+//! the sparse solver. It is the independent check of everything between. [`space`] is the same for trains in space.
 
 pub mod assembly;
 pub mod constant;
@@ -22,6 +22,7 @@ pub mod monolithic;
 pub mod outputs;
 pub mod schur;
 pub mod scm;
+pub mod space;
 mod start;
 pub mod stepped;
 pub mod stepper;

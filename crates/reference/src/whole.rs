@@ -160,7 +160,7 @@ fn base(support: &Support) -> Spring {
 }
 
 /// The bridge's damping, in all degrees of freedom.
-fn law(damping: &Damping, pencil: &Pencil) -> Result<Law, ReferenceError> {
+pub(crate) fn law(damping: &Damping, pencil: &Pencil) -> Result<Law, ReferenceError> {
     let ratio = match *damping {
         Damping::None => 0.0,
         Damping::Rayleigh { ratio, .. } => ratio,

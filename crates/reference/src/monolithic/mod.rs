@@ -20,6 +20,7 @@ use ttb_session::{Column, Moment, Observer, Plan, RunError, Stepping, TimeAxis, 
 
 use crate::assembly::{Row, System};
 use crate::outputs::{Place, failed, outputs};
+pub(crate) use contact::roughness;
 use newton::solve;
 use setup::{Axle, axles, combine, place, weight};
 
