@@ -19,7 +19,7 @@ use crate::band::{Band, NotPositiveDefinite};
 type Pair = [f64; 2];
 
 /// Widths of the loops: a half bandwidth takes the next of them, filled up with zeros.
-const WIDTHS: [usize; 10] = [1, 2, 3, 4, 5, 6, 7, 8, 16, 64];
+const WIDTHS: [usize; 12] = [1, 2, 3, 4, 5, 6, 7, 8, 10, 12, 16, 64];
 
 /// Factor of a banded matrix for the step loop.
 #[derive(Clone, Debug)]
@@ -93,6 +93,8 @@ impl TwistedFactor {
             6 => self.solve_fixed::<6>(x),
             7 => self.solve_fixed::<7>(x),
             8 => self.solve_fixed::<8>(x),
+            10 => self.solve_fixed::<10>(x),
+            12 => self.solve_fixed::<12>(x),
             16 => self.solve_fixed::<16>(x),
             _ => self.solve_fixed::<64>(x),
         }
