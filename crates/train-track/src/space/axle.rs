@@ -1,27 +1,30 @@
 //! One axle between its ports and its two wheels.
 //!
 //! ```text
-//! s = (y, z, φ, θ, ψ of the wheelset;  w_s, w_a, v_s, φ_s, v_d, φ_d of the rails under it)
 //! w_σ = w_s + σ w_a,  v_σ = v_s + σ v_d,  φ_σ = φ_s + σ φ_d            σ = +1 right rail, −1 left rail
+//! s = (y − v_s, z − w_s, φ, θ, ψ of the wheelset;  w_a, φ_s, v_d, φ_d of the rails under it)
 //! of the wheel on rail σ, outwards:
-//!     D = σ (y − φ r0 − v − φ_r h_h − a)         ζ = z − w − r + σ φ_r y_r          ρ = σ (φ − φ_r)
+//!     D = σ (y − v − φ r0 − φ_r h_h − a)         ζ = z − w − r + σ φ_r y_r          ρ = σ (φ − φ_r)
 //!     θ̇,  σψ̇,  σψ,   η = σ (ẏ − v̇ − φ̇_r h_h),   σφ̇
 //! on the wheelset  σF_y, F_z, σ(Σu F_z − Σr F_y), −Σr T_x, −σ Σu T_x
 //! on the rail      −σF_y, −F_z, σ(y_r F_z − Σu F_z − h_h F_y)
 //! ```
 //!
 //! Sums and differences of both rails move apart from each other in a track that is the same on both sides, and a
-//! mirrored run has the same numbers with other signs.
+//! mirrored run has the same numbers with other signs. Wheelset and sum of the rails meet in two ports, whose force acts on
+//! both: the fewer the ports, the smaller Newton's matrices.
 
 use ttb_wheel_rail::contact::Contact;
 use ttb_wheel_rail::patch::{Contacting, Forces, Gradient, Motion, Running};
 
 /// Ports of an axle.
-pub const PORTS: usize = 11;
-/// Ports of the rails among them.
+pub const PORTS: usize = 9;
+/// Motions of the rails under an axle: w_s, w_a, v_s, φ_s, v_d, φ_d.
 pub const RAIL_PORTS: usize = 6;
-/// First of these.
-pub const FIRST_RAIL: usize = 5;
+/// Port of each of these, and its sign there: the rails' share of a port's motion, and of the force on it.
+pub const RAILS: [(usize, f64); RAIL_PORTS] = [(1, -1.0), (5, 1.0), (0, -1.0), (6, 1.0), (7, 1.0), (8, 1.0)];
+/// Whether a port turns: rad and N m.
+pub const TURNS: [bool; PORTS] = [false, false, true, true, true, false, true, false, true];
 
 /// What is constant for an axle.
 #[derive(Clone, Copy, Debug)]
@@ -53,16 +56,15 @@ impl Lever {
     pub fn motion(&self, side: usize, s: &[f64], v: &[f64], place: &Place) -> Motion {
         let sign = SIDES[side];
         let [a, r] = place.irregularity[side];
-        let (rail_w, rail_v, rail_phi) = (s[5] + sign * s[6], s[7] + sign * s[9], s[8] + sign * s[10]);
-        let (rate_v, rate_phi) = (v[7] + sign * v[9], v[8] + sign * v[10]);
+        let (rail_phi, rate_phi) = (s[6] + sign * s[8], v[6] + sign * v[8]);
         [
-            sign * (s[0] - s[2] * self.radius - rail_v - rail_phi * self.head - a),
-            s[1] - rail_w - r + sign * rail_phi * self.rail,
+            sign * (s[0] - sign * s[7] - s[2] * self.radius - rail_phi * self.head - a),
+            s[1] - sign * s[5] - r + sign * rail_phi * self.rail,
             sign * (s[2] - rail_phi),
             v[3],
             sign * v[4],
             sign * s[4],
-            sign * (v[0] - rate_v - rate_phi * self.head),
+            sign * (v[0] - sign * v[7] - rate_phi * self.head),
             sign * v[2],
         ]
     }
@@ -81,12 +83,10 @@ impl Lever {
         f[2] += sign * (c[2] - c[3]);
         f[3] -= c[5];
         f[4] -= sign * c[4];
-        f[5] -= c[1];
-        f[6] -= sign * c[1];
-        f[7] -= sign * c[0];
-        f[8] += sign * roll;
-        f[9] -= c[0];
-        f[10] += roll;
+        f[5] -= sign * c[1];
+        f[6] += sign * roll;
+        f[7] -= c[0];
+        f[8] += roll;
     }
 
     /// Forces on all ports.
@@ -125,28 +125,25 @@ impl Lever {
             let by_position = [
                 (0, 0, sign),
                 (0, 2, -sign * r0),
-                (0, 7, -sign),
-                (0, 9, -1.0),
-                (0, 8, -sign * head),
-                (0, 10, -head),
+                (0, 7, -1.0),
+                (0, 6, -sign * head),
+                (0, 8, -head),
                 (1, 1, 1.0),
-                (1, 5, -1.0),
-                (1, 6, -sign),
-                (1, 8, sign * rail),
-                (1, 10, rail),
+                (1, 5, -sign),
+                (1, 6, sign * rail),
+                (1, 8, rail),
                 (2, 2, sign),
-                (2, 8, -sign),
-                (2, 10, -1.0),
+                (2, 6, -sign),
+                (2, 8, -1.0),
                 (5, 4, sign),
             ];
             let by_rate = [
                 (3, 3, 1.0),
                 (4, 4, sign),
                 (6, 0, sign),
-                (6, 7, -sign),
-                (6, 9, -1.0),
-                (6, 8, -sign * head),
-                (6, 10, -head),
+                (6, 7, -1.0),
+                (6, 6, -sign * head),
+                (6, 8, -head),
                 (7, 2, sign),
             ];
             for (part, entries) in [(0, &by_position[..]), (1, &by_rate[..])] {

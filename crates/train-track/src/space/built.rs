@@ -7,7 +7,7 @@ use ttb_dynamics::pool::Pool;
 use ttb_scenario::spec::{SpaceSpec, TrainTrackSpec};
 use ttb_wheel_rail::contact::Contact;
 
-use super::axle::{FIRST_RAIL, Lever, PORTS};
+use super::axle::{Lever, PORTS};
 use super::car::{AXLES, Car, DOFS};
 use super::newton::CarPorts;
 use super::outputs;
@@ -250,9 +250,8 @@ impl SpaceBuilt {
         for (car, ports) in self.system.ports.iter().enumerate() {
             for axle in 0..AXLES {
                 let (i, port) = (car * AXLES + axle, at + axle * PORTS);
-                plane.forces[i] = state.ports[0][port + FIRST_RAIL];
-                let rail = state.ports[1][port + FIRST_RAIL];
-                plane.delta[i] = state.ports[1][port + 1] - rail - self.system.wheels.roughness[i];
+                plane.forces[i] = -state.ports[0][port + 1];
+                plane.delta[i] = state.ports[1][port + 1] - self.system.wheels.roughness[i];
             }
             at += ports.n;
         }

@@ -45,6 +45,14 @@ pub struct Row {
     pub spring: Spring,
 }
 
+impl Row {
+    /// Force on the row by the motion (d_y, d_φ) of a deck and its rates, of which it takes the parts `by`.
+    fn pressed(&self, by: [f64; 2], deck: [[f64; 2]; 2]) -> f64 {
+        let [d, v] = deck.map(|motion| by[0] * motion[0] + by[1] * motion[1]);
+        self.spring.stiffness * d + self.spring.damping * v
+    }
+}
+
 /// Spring at a support as it is described: places count among the node's fields, then the support's own masses.
 #[derive(Clone, Copy, Debug)]
 pub struct SupportSpring {
@@ -85,13 +93,33 @@ pub struct Line {
     order: usize,
     half_bandwidth: usize,
     rows: Vec<Row>,
-    /// Support on the bridge, row, and what the row takes off of its deck.
-    on_bridge: Vec<(usize, Row, [f64; 2])>,
+    /// Rows to the deck, by support on the bridge.
+    pub(super) on_bridge: Vec<OnBridge>,
     /// Rows to the ground beside the bridge, and what each takes off of its motion.
     beside: Vec<(Row, [f64; 2])>,
     lumped: Vec<(usize, f64)>,
-    /// Mass of an element between the fields of its nodes, by rows.
-    element_mass: Vec<f64>,
+    /// Mass of an element field by field: the field's first place in a node.
+    element_mass: Vec<(usize, FieldMass)>,
+}
+
+/// A row to the deck.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct OnBridge {
+    /// Support, counted on the bridge.
+    pub support: usize,
+    /// Node of the rail above it.
+    pub node: usize,
+    /// The row over rail and sleeper.
+    pub row: Row,
+    /// What it takes off of the deck's d_y and d_φ.
+    pub by: [f64; 2],
+}
+
+/// Mass of a field between both ends of an element.
+#[derive(Clone, Copy, Debug)]
+enum FieldMass {
+    Bending([[f64; 4]; 4]),
+    Torsion([f64; 2]),
 }
 
 impl Line {
@@ -119,7 +147,9 @@ impl Line {
                 let row = Row { of, spring: spring.spring };
                 line.rows.push(row);
                 match (spring.deck, on_bridge.binary_search(&support)) {
-                    (Some(deck), Ok(i)) => line.on_bridge.push((i, row, deck)),
+                    (Some(by), Ok(i)) => {
+                        line.on_bridge.push(OnBridge { support: i, node: support * per_bay, row, by });
+                    }
                     (Some(deck), Err(_)) => line.beside.push((row, deck)),
                     (None, _) => {}
                 }
@@ -137,7 +167,15 @@ impl Line {
         let elements = (0..bays * per_bay).map(|e| line.node(e + 1) + width - 1 - line.node(e));
         let rows = line.rows.iter().map(|row| spread(&mut row.of.iter().filter(|of| of.1 != 0.0).map(|of| of.0)));
         line.half_bandwidth = elements.chain(rows).max().unwrap_or(0);
-        line.element_mass = line.element(0.0, 1.0);
+        let (l, mut place) = (line.made_of.length, 0);
+        for field in &line.made_of.fields {
+            let mass = match field {
+                Field::Bending(beam) => FieldMass::Bending(beam.mass_matrix(l)),
+                Field::Torsion { inertia, .. } => FieldMass::Torsion([inertia * l / 3.0, inertia * l / 6.0]),
+            };
+            line.element_mass.push((place, mass));
+            place += field.dofs();
+        }
         line
     }
 
@@ -220,17 +258,30 @@ impl Line {
     /// p = M (a₀u + a₂u̇ + a₃ü) + C (a₁u + a₄u̇ + a₅ü).
     pub fn history(&self, newmark: &Newmark, old: &Motion, p: &mut [f64]) {
         p.fill(0.0);
-        let (w, size) = (self.width, 2 * self.width);
-        let mut x = [0.0; 16];
         let inertia = |i: usize| newmark.inertia(old.u[i], old.v[i], old.a[i]);
-        for e in 0..self.nodes() - 1 {
-            let (a, b) = (self.node(e), self.node(e + 1));
-            for k in 0..w {
-                (x[k], x[w + k]) = (inertia(a + k), inertia(b + k));
-            }
-            for (i, row) in self.element_mass.chunks_exact(size).enumerate() {
-                let at = if i < w { a + i } else { b + i - w };
-                p[at] += row.iter().zip(&x).map(|(m, x)| m * x).sum::<f64>();
+        for (place, mass) in &self.element_mass {
+            let mut a = self.node(0) + place;
+            match mass {
+                FieldMass::Bending(m) => {
+                    let mut x = [0.0, 0.0, inertia(a), inertia(a + 1)];
+                    for node in 1..self.nodes() {
+                        let b = self.node(node) + place;
+                        x = [x[2], x[3], inertia(b), inertia(b + 1)];
+                        let y = m.map(|m| (m[0] * x[0] + m[1] * x[1]) + (m[2] * x[2] + m[3] * x[3]));
+                        (p[a], p[a + 1], p[b], p[b + 1]) = (p[a] + y[0], p[a + 1] + y[1], y[2], y[3]);
+                        a = b;
+                    }
+                }
+                FieldMass::Torsion([own, other]) => {
+                    let mut x = [0.0, inertia(a)];
+                    for node in 1..self.nodes() {
+                        let b = self.node(node) + place;
+                        x = [x[1], inertia(b)];
+                        p[a] += own * x[0] + other * x[1];
+                        p[b] = other * x[0] + own * x[1];
+                        a = b;
+                    }
+                }
             }
         }
         self.lumped.iter().for_each(|(dof, mass)| p[*dof] += mass * inertia(*dof));
@@ -240,17 +291,18 @@ impl Line {
         }
     }
 
-    /// Whether the deck's motion moves it.
-    pub fn feels_deck(&self) -> bool {
-        !self.on_bridge.is_empty()
-    }
-
     /// Adds the forces of the deck's motion to `p`; `deck` gives (d_y, d_φ) and their rates by support on the bridge.
     pub fn add_deck(&self, deck: impl Fn(usize) -> [[f64; 2]; 2], p: &mut [f64]) {
-        for (support, row, by) in &self.on_bridge {
-            let [d, v] = deck(*support).map(|motion| by[0] * motion[0] + by[1] * motion[1]);
-            let force = row.spring.stiffness * d + row.spring.damping * v;
+        for OnBridge { support, row, by, .. } in &self.on_bridge {
+            let force = row.pressed(*by, deck(*support));
             row.of.iter().for_each(|(i, c)| p[*i] += c * force);
+        }
+    }
+
+    /// The forces of the deck's motion on all rows to it.
+    pub fn deck_forces(&self, deck: impl Fn(usize) -> [[f64; 2]; 2], forces: &mut [f64]) {
+        for (force, on) in forces.iter_mut().zip(&self.on_bridge) {
+            *force = on.row.pressed(on.by, deck(on.support));
         }
     }
 
@@ -269,7 +321,7 @@ impl Line {
         deck: impl Fn(usize) -> [[f64; 2]; 2],
         mut add: impl FnMut(usize, [f64; 2]),
     ) {
-        for (support, row, by) in &self.on_bridge {
+        for OnBridge { support, row, by, .. } in &self.on_bridge {
             let [d, v] = deck(*support).map(|motion| by[0] * motion[0] + by[1] * motion[1]);
             let of = |x: &[f64]| row.of.iter().map(|(i, c)| c * x[*i]).sum::<f64>();
             let force = row.spring.stiffness * (of(&motion.u) - d) + row.spring.damping * (of(&motion.v) - v);

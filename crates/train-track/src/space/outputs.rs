@@ -8,8 +8,8 @@ use ttb_contract::names::support;
 use ttb_contract::{Component, Variable};
 use ttb_scenario::spec::TrainTrackSpec;
 
-use super::axle::{PORTS, SIDES};
-use super::car::{AXLES, DOFS, OF_BODY};
+use super::axle::SIDES;
+use super::car::{AXLES, DOFS, FIRST_WHEELSET, OF_BODY};
 use super::state::SpaceState;
 use super::system::SpaceSystem;
 
@@ -86,9 +86,8 @@ pub fn write(system: &SpaceSystem, state: &SpaceState, means: &[f64], out: &mut 
             shift += SIDES[side] * y;
             out.copy_from_slice(&[y, q, if q > 0.0 { y / q } else { 0.0 }, d, (-most.slope).atan()]);
         }
-        let before: usize = system.ports[..axle / AXLES].iter().map(|car| car.n).sum();
-        let at = before + axle % AXLES * PORTS;
-        whole.copy_from_slice(&[state.ports[1][at], state.ports[1][at + 4], shift.abs()]);
+        let at = axle / AXLES * DOFS + FIRST_WHEELSET + axle % AXLES * OF_BODY;
+        whole.copy_from_slice(&[state.cars.u[at], state.cars.u[at + 4], shift.abs()]);
     }
     for (car, out) in cars.chunks_exact_mut(CAR.len()).enumerate() {
         let a = &state.cars.a[car * DOFS..car * DOFS + OF_BODY];

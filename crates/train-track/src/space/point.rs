@@ -2,6 +2,7 @@
 //!
 //! ```text
 //! Y = N_i K̂⁻¹ N_jᵀ          N rows of the ports at a point: Hermite for bending, linear for torsion
+//! N K̂⁻¹ e_s                 e_s rows of the springs on the bridge
 //! c_loc = (ξ(1−ξ)l)³/(3EI),  ξ(1−ξ)l/(GJ)
 //! ```
 //!
@@ -11,6 +12,7 @@ use ttb_dynamics::band::{Band, BandFactor, NotPositiveDefinite};
 use ttb_dynamics::newmark::Motion;
 use ttb_dynamics::twisted::TwistedFactor;
 
+use super::car::dot;
 use super::line::{Field, Line};
 
 /// Ports of a line at a point at most.
@@ -91,6 +93,8 @@ pub struct LineFactors {
     /// K̂.
     pub factor: TwistedFactor,
     table: Table,
+    /// K̂⁻¹ e_s of the rows to the deck at the rail nodes less than `reach` away, 2 reach − 1 of them.
+    columns: Vec<f64>,
 }
 
 #[derive(Clone, Debug)]
@@ -109,8 +113,27 @@ impl LineFactors {
     /// A matrix that is not positive definite.
     pub fn new(line: &Line, mass_factor: f64, damping_factor: f64) -> Result<Self, NotPositiveDefinite> {
         let effective: Band = line.effective(mass_factor, damping_factor);
-        let table = Table::new(line, &effective.clone().factorise()?);
-        Ok(Self { factor: TwistedFactor::new(effective)?, table })
+        let factor = effective.clone().factorise()?;
+        let table = Table::new(line, &factor);
+        let columns = columns(line, &factor, table.reach);
+        Ok(Self { factor: TwistedFactor::new(effective)?, table, columns })
+    }
+
+    /// Motions of a point's ports by `forces` on the rows to the deck.
+    pub fn by_deck(&self, line: &Line, point: &LinePoint, forces: &[f64]) -> [f64; MOST_PORTS] {
+        let (reach, w) = (self.table.reach, self.table.width);
+        let begin = line.on_bridge.partition_point(|on| on.node + reach <= point.element + 1);
+        let mut sum = [0.0; MOST_DOFS];
+        for (s, on) in line.on_bridge.iter().enumerate().skip(begin) {
+            if on.node >= point.element + reach {
+                break;
+            }
+            // Of the element's nodes, next to each other in the table.
+            let at = (s * (2 * reach - 1) + point.element + reach - 1 - on.node) * w;
+            let column = &self.columns[at..at + 2 * w];
+            sum.iter_mut().zip(column).for_each(|(sum, y)| *sum += y * forces[s]);
+        }
+        std::array::from_fn(|port| dot(&point.rows[port][..2 * w], &sum[..2 * w]))
     }
 
     /// Whether two points feel each other.
@@ -174,6 +197,26 @@ impl Table {
         }
         Self { reach, width: w, blocks }
     }
+}
+
+/// K̂⁻¹ e_s of all rows to the deck.
+fn columns(line: &Line, factor: &BandFactor, reach: usize) -> Vec<f64> {
+    let (nodes, w, n) = (line.nodes(), line.width, line.order());
+    let dof = |node: usize| if node < nodes { line.node(node) } else { n };
+    let (mut columns, mut column) = (Vec::new(), vec![0.0; n]);
+    for on in &line.on_bridge {
+        let (begin, end) = (dof(on.node.saturating_sub(reach)), dof(on.node + 2 * reach));
+        column[begin..end].fill(0.0);
+        on.row.of.iter().for_each(|(i, c)| column[*i] += c);
+        factor.solve_range(&mut column, begin, end);
+        for i in 0..2 * reach - 1 {
+            match (on.node + i).checked_sub(reach - 1) {
+                Some(q) if q < nodes => columns.extend_from_slice(&column[dof(q)..dof(q) + w]),
+                _ => columns.extend((0..w).map(|_| 0.0)),
+            }
+        }
+    }
+    columns
 }
 
 /// Number of nodes over which the inverse decays to nothing, measured in the middle of the track.

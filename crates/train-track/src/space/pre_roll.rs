@@ -8,7 +8,7 @@ use std::sync::Arc;
 
 use ttb_scenario::limits::pre_roll_steps;
 
-use super::axle::{FIRST_RAIL, PORTS, RAIL_PORTS};
+use super::axle::RAIL_PORTS;
 use super::car::AXLES;
 use super::newton::{CarPorts, Of};
 use super::rails::W_SUM;
@@ -38,17 +38,20 @@ pub fn pre_roll(
     let lines = Arc::clone(&system.lines);
     system.fill(&matrices.cars, &statics, &lines.statics, false);
     let of = Of { a1: newmark.a[1], gamma: newmark.gamma, h: newmark.h, rails_move: false };
-    // Where the rails are without wheels: what the state has, minus what its wheels press.
-    rails_without_wheels(system, state);
+    let rails = rails_without_wheels(system, state);
     let (mut old, mut new) = (state.cars.clone(), state.cars.clone());
     system.begin_ports(state);
+    // Only contacts and links change from step to step: J stands until a correction gains too little by it.
+    system.begin_jacobians(&of, false)?;
     for step in (0..steps).rev() {
         let t = -(step as f64) * newmark.h;
         system.meet(t);
         system.free_cars(matrices, &old, t);
         system.free_car_ports(&newmark, &old);
+        for (axle, rails) in rails.iter().enumerate() {
+            system.ports[axle / AXLES].meet_rails(axle % AXLES, [*rails, [0.0; RAIL_PORTS]]);
+        }
         system.ports.iter_mut().for_each(CarPorts::begin);
-        system.begin_jacobians(&of, false)?;
         system.solve_ports(&of, t).map_err(|e| format!("{e} (pre-roll of the cars)"))?;
         for ports in &mut system.ports {
             let [before, after] = &mut ports.inner;
@@ -65,8 +68,8 @@ pub fn pre_roll(
     Ok(())
 }
 
-/// s_free of the rails' ports: the deflection of the deck's displacements alone.
-fn rails_without_wheels(system: &mut SpaceSystem, state: &SpaceState) {
+/// Motions of the rails under all axles by the deck's displacements alone.
+fn rails_without_wheels(system: &SpaceSystem, state: &SpaceState) -> Vec<[f64; RAIL_PORTS]> {
     let supports = system.prepared.track.bridge_supports();
     let deck = &state.deck;
     let across = |i: usize| [[deck[2 * supports + i], deck[4 * supports + i]], [0.0; 2]];
@@ -88,8 +91,7 @@ fn rails_without_wheels(system: &mut SpaceSystem, state: &SpaceState) {
             u
         })
         .collect();
-    for axle in 0..system.wheels.points.len() {
-        let at = axle % AXLES * PORTS + FIRST_RAIL;
+    let under = |axle: usize| {
         let mut free = [0.0; RAIL_PORTS];
         free[W_SUM] = system.prepared.track.deflection(&system.wheels.points[axle], &u);
         for (k, (line, ports)) in system.lines.lines.iter().enumerate() {
@@ -97,10 +99,9 @@ fn rails_without_wheels(system: &mut SpaceSystem, state: &SpaceState) {
                 free[*port] = line.at(&system.points[k][axle], own, &lines[k]);
             }
         }
-        let ports = &mut system.ports[axle / AXLES];
-        ports.free[0][at..at + RAIL_PORTS].copy_from_slice(&free);
-        ports.free[1][at..at + RAIL_PORTS].fill(0.0);
-    }
+        free
+    };
+    (0..system.wheels.points.len()).map(under).collect()
 }
 
 /// The track at rest under the ports' forces.
@@ -116,8 +117,8 @@ fn press_rails(system: &SpaceSystem, state: &mut SpaceState) {
     u.fill(0.0);
     system.prepared.track.add_deck_forces(&forces, u);
     for (axle, point) in system.wheels.points.iter().enumerate() {
-        let at = axle % AXLES * PORTS + FIRST_RAIL + W_SUM;
-        system.prepared.track.add_force(point, system.ports[axle / AXLES].f[at], u);
+        let f = system.ports[axle / AXLES].on_rails(axle % AXLES);
+        system.prepared.track.add_force(point, f[W_SUM], u);
     }
     system.prepared.statics.solve(u);
     for (k, (line, ports)) in system.lines.lines.iter().enumerate() {
@@ -125,9 +126,9 @@ fn press_rails(system: &SpaceSystem, state: &mut SpaceState) {
         u.fill(0.0);
         line.add_deck(across, u);
         for axle in 0..system.wheels.points.len() {
-            let at = axle % AXLES * PORTS + FIRST_RAIL;
+            let f = system.ports[axle / AXLES].on_rails(axle % AXLES);
             for (own, port) in ports.iter().enumerate() {
-                line.add_force(&system.points[k][axle], own, system.ports[axle / AXLES].f[at + port], u);
+                line.add_force(&system.points[k][axle], own, f[*port], u);
             }
         }
         system.lines.statics[k].factor.solve(u);

@@ -8,9 +8,8 @@
 //!
 //! D and Q are found in turn; a few rounds, since the spread changes Q in the last digits only.
 
-use super::axle::{FIRST_RAIL, PORTS, RAIL_PORTS};
+use super::axle::{PORTS, RAILS};
 use super::car::{AXLES, DOFS, OF_BODY};
-use super::rails::W_SUM;
 use super::state::SpaceState;
 use super::system::SpaceSystem;
 use crate::coupled::TrainTrackSystem;
@@ -83,12 +82,12 @@ pub fn rest(
         state.ports.iter_mut().for_each(|part| part.fill(0.0));
         press(system, &wheels, &held, state);
         for (axle, (d, roll)) in d.iter_mut().zip(&mut roll).enumerate() {
-            let at = ports_before(system, axle) + FIRST_RAIL;
+            let at = ports_before(system, axle);
             let head = system.ports[axle / AXLES].lever.head;
-            let spread = state.ports[1][at + 4] + state.ports[1][at + 5] * head;
-            let new = -(spread + gauge(system, axle));
-            largest = largest.max((new - *d).abs()).max((state.ports[1][at + 5] - *roll).abs());
-            (*d, *roll) = (new, state.ports[1][at + 5]);
+            let [v_d, phi_d] = [7, 8].map(|port| state.ports[1][at + port]);
+            let new = -(v_d + phi_d * head + gauge(system, axle));
+            largest = largest.max((new - *d).abs()).max((phi_d - *roll).abs());
+            (*d, *roll) = (new, phi_d);
         }
         if largest <= STEADY {
             break;
@@ -102,10 +101,10 @@ pub fn rest(
     }
     for axle in 0..axles {
         let at = ports_before(system, axle);
-        state.ports[1][at + 1] = plane_state.cars.u[axle / AXLES * PLANE.len() + 6 + axle % AXLES];
+        let z = plane_state.cars.u[axle / AXLES * PLANE.len() + 6 + axle % AXLES];
         let point = &system.wheels.points[axle];
         let rail = system.prepared.track.deflection(point, &state.track.u);
-        state.ports[1][at + FIRST_RAIL + W_SUM] = rail + point.local_compliance * plane_state.forces[axle];
+        state.ports[1][at + 1] = z - rail - point.local_compliance * plane_state.forces[axle];
     }
     system.support_forces(state, &held);
     state.deck.copy_from_slice(deck);
@@ -125,27 +124,28 @@ fn press(system: &SpaceSystem, wheels: &[[f64; 4]], deck: &[f64], state: &mut Sp
         let at = ports_before(system, axle);
         let f = &mut state.ports[0][at..at + PORTS];
         f[1] = 2.0 * wheel[1];
-        let rails = &mut f[FIRST_RAIL..FIRST_RAIL + RAIL_PORTS];
-        rails[W_SUM] = -2.0 * wheel[1];
-        rails[4] = -2.0 * wheel[0];
-        rails[5] = 2.0 * (lever.rail * wheel[1] - wheel[2] - lever.head * wheel[0]);
+        f[7] = -2.0 * wheel[0];
+        f[8] = 2.0 * (lever.rail * wheel[1] - wheel[2] - lever.head * wheel[0]);
     }
     for (k, (line, ports)) in system.lines.lines.iter().enumerate() {
         let u = &mut state.lines[k].u;
         u.fill(0.0);
         line.add_deck(across, u);
         for axle in 0..wheels.len() {
-            let at = ports_before(system, axle) + FIRST_RAIL;
+            let at = ports_before(system, axle);
             for (own, port) in ports.iter().enumerate() {
-                line.add_force(&system.points[k][axle], own, state.ports[0][at + port], u);
+                let (port, sign) = RAILS[*port];
+                line.add_force(&system.points[k][axle], own, sign * state.ports[0][at + port], u);
             }
         }
         system.lines.statics[k].factor.solve(u);
         for axle in 0..wheels.len() {
-            let at = ports_before(system, axle) + FIRST_RAIL;
+            let at = ports_before(system, axle);
             let point = &system.points[k][axle];
             for (own, port) in ports.iter().enumerate() {
-                state.ports[1][at + port] = line.at(point, own, u) + point.local[own] * state.ports[0][at + port];
+                let (port, sign) = RAILS[*port];
+                let at = at + port;
+                state.ports[1][at] = sign * line.at(point, own, u) + point.local[own] * state.ports[0][at];
             }
         }
     }

@@ -2,7 +2,7 @@
 
 use ttb_contract::finite::larger;
 
-use super::super::axle::{FIRST_RAIL, PORTS};
+use super::super::axle::PORTS;
 use super::super::car::{AXLES, dot};
 use super::{CORRECTION, CarPorts, FLOOR, GAIN, ITERATIONS, LEAST, Of};
 
@@ -141,8 +141,8 @@ impl CarPorts {
             let (position, met) = if of.rails_move {
                 (moved + self.local[i] * self.f[i], self.met[i])
             } else {
-                let met = if is_rail(i) { 0.0 } else { self.met[i] };
-                (dot(&self.position[i * n..(i + 1) * n], &self.f), met)
+                // All that neighbours do comes through the rails.
+                (dot(&self.position[i * n..(i + 1) * n], &self.f), 0.0)
             };
             self.motion[0][i] = self.free[0][i] + position + self.met[i];
             self.motion[1][i] = self.free[1][i] + of.a1 * (moved + met);
@@ -227,8 +227,4 @@ impl CarPorts {
         }
         Err(false)
     }
-}
-
-fn is_rail(port: usize) -> bool {
-    port < AXLES * PORTS && port % PORTS >= FIRST_RAIL
 }

@@ -3,7 +3,7 @@
 //! ```text
 //! f = F(s, ṡ),   s = s_free + Y_s f,   ṡ = ṡ_free + a₁ Y_r f
 //! Y_s = R K̂_c⁻¹ Rᵀ ⊕ N K̂_t⁻¹ Nᵀ + diag c_loc,   Y_r the same without c_loc
-//! J = I − (∂F/∂s) Y_s − a₁ (∂F/∂ṡ) Y_r                       LU, 44 and the links that are not linear
+//! J = I − (∂F/∂s) Y_s − a₁ (∂F/∂ṡ) Y_r                       LU, 36 and the links that are not linear
 //! ```
 //!
 //! c_loc belongs to positions only: a₁ c_loc F would be a velocity that grows with 1/h. Neighbouring cars meet through the
@@ -16,7 +16,7 @@ mod ports;
 
 use ttb_contract::finite::larger;
 
-use super::axle::{FIRST_RAIL, PORTS, RAIL_PORTS};
+use super::axle::{PORTS, RAIL_PORTS, RAILS};
 use super::car::AXLES;
 
 pub use ports::{CarPorts, Neighbour, RailBlock};
@@ -100,14 +100,13 @@ fn meet(cars: &mut [CarPorts], car: usize) -> f64 {
         let mut sum = [0.0; RAIL_PORTS];
         for neighbour in cars[car].neighbours.iter().filter(|neighbour| neighbour.axles[0] == axle) {
             let other = neighbour.axles[1];
-            let at = other % AXLES * PORTS + FIRST_RAIL;
-            let f = &cars[other / AXLES].f[at..at + RAIL_PORTS];
+            let f = cars[other / AXLES].on_rails(other % AXLES);
             for (sum, row) in sum.iter_mut().zip(&neighbour.block) {
                 *sum += row.iter().zip(f).map(|(y, f)| y * f).sum::<f64>();
             }
         }
-        for (a, sum) in sum.into_iter().enumerate() {
-            let port = axle * PORTS + FIRST_RAIL + a;
+        for ((port, sign), sum) in RAILS.into_iter().zip(sum) {
+            let (port, sum) = (axle * PORTS + port, sign * sum);
             change = larger(change, (sum - met[port]).abs() * CarPorts::arm(port));
             met[port] = sum;
         }

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use ttb_wheel_rail::contact::Contact;
 
-use super::super::axle::{FIRST_RAIL, Lever, PORTS, Place, RAIL_PORTS};
+use super::super::axle::{Lever, PORTS, Place, RAIL_PORTS, RAILS, TURNS};
 use super::super::car::{AXLES, OF_BODY, WHEELSET_PORTS};
 use super::super::element::Element;
 use super::super::lu::Lu;
@@ -102,8 +102,22 @@ impl CarPorts {
 
     /// Weight of a port's force, or with its inverse of its motion, against others.
     pub(super) fn arm(port: usize) -> f64 {
-        let rotation = port < AXLES * PORTS && matches!(port % PORTS, 2 | 3 | 4 | 8 | 10);
-        if rotation { ARM } else { 1.0 }
+        if port < AXLES * PORTS && TURNS[port % PORTS] { ARM } else { 1.0 }
+    }
+
+    /// Forces on the rails under an axle of the car.
+    pub fn on_rails(&self, axle: usize) -> [f64; RAIL_PORTS] {
+        RAILS.map(|(port, sign)| sign * self.f[axle * PORTS + port])
+    }
+
+    /// Takes the free motion of the rails under an axle, and its rates, into s_free and ṡ_free, which have the wheelset's.
+    pub fn meet_rails(&mut self, axle: usize, motion: [[f64; RAIL_PORTS]; 2]) {
+        for (free, rails) in self.free.iter_mut().zip(motion) {
+            let free = &mut free[axle * PORTS..(axle + 1) * PORTS];
+            for ((port, sign), rail) in RAILS.into_iter().zip(rails) {
+                free[port] = if port < OF_BODY { free[port] + sign * rail } else { rail };
+            }
+        }
     }
 
     /// Puts the car's own compliance (wheelsets, then elements) into Y_s and Y_r, the rails' parts zero.
@@ -123,24 +137,28 @@ impl CarPorts {
         self.local.fill(0.0);
     }
 
-    /// Puts the rails' compliance between two axles of the car into Y_s and Y_r; `local` goes to the diagonal of Y_s.
-    pub fn set_rails(
+    /// Adds the rails' compliance between two axles of the car to Y_s and Y_r; `local` goes to the diagonal of Y_s.
+    pub fn add_rails(
         &mut self,
         [i, j]: [usize; 2],
         block: &RailBlock,
         local: Option<&[f64; RAIL_PORTS]>,
         moving: bool,
     ) {
-        for (a, row) in block.iter().enumerate() {
-            for (b, value) in row.iter().enumerate() {
-                let at = (i * PORTS + FIRST_RAIL + a) * self.n + j * PORTS + FIRST_RAIL + b;
-                let own = if a == b { local.map_or(0.0, |local| local[a]) } else { 0.0 };
-                self.position[at] = *value + own;
-                if a == b && local.is_some() {
-                    self.local[i * PORTS + FIRST_RAIL + a] = own;
+        for ((row, sign), values) in RAILS.into_iter().zip(block) {
+            let from = (i * PORTS + row) * self.n + j * PORTS;
+            for ((column, other), value) in RAILS.into_iter().zip(values) {
+                let value = sign * other * value;
+                self.position[from + column] += value;
+                if moving {
+                    self.rate[from + column] += value;
                 }
-                self.rate[at] = if moving { *value } else { 0.0 };
             }
+        }
+        for ((port, _), local) in RAILS.into_iter().zip(local.into_iter().flatten()) {
+            let port = i * PORTS + port;
+            self.local[port] = *local;
+            self.position[port * self.n + port] += local;
         }
     }
 }

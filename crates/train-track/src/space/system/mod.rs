@@ -70,6 +70,8 @@ pub struct SpaceSystem {
     cars_free: Vec<f64>,
     work: Vec<f64>,
     deck_forces: Vec<f64>,
+    /// Forces of the deck on the lines' rows to it.
+    line_forces: Vec<Vec<f64>>,
     to_supports: Vec<f64>,
     jacobian_for: Option<(Arc<SpaceState>, u64, u64)>,
 }
@@ -97,6 +99,7 @@ impl SpaceSystem {
             cars_free: vec![0.0; DOFS * of_kind.len()],
             work: vec![0.0; order],
             deck_forces: vec![0.0; supports],
+            line_forces: lines.lines.iter().map(|(line, _)| vec![0.0; line.on_bridge.len()]).collect(),
             to_supports: vec![0.0; supports],
             geometry_for: None,
             history_for: None,

@@ -49,7 +49,7 @@ impl SpaceSystem {
                 for j in 0..AXLES {
                     let block = self.between(track, lines, axle, AXLES * c + j);
                     let local = self.local(axle);
-                    car.set_rails([i, j], &block, (i == j).then_some(&local), moving);
+                    car.add_rails([i, j], &block, (i == j).then_some(&local), moving);
                 }
                 let before = (0..AXLES * c).rev().take_while(|other| reaches(axle, *other));
                 let after = (AXLES * (c + 1)..axles).take_while(|other| reaches(axle, *other));

@@ -66,15 +66,15 @@ impl SpaceSystem {
 
     /// Whether a wheel has left its rail.
     fn derailed(&self, t: f64) -> Result<(), String> {
-        for (axle, point) in self.wheels.points.iter().enumerate() {
-            let _ = point;
+        for axle in 0..self.wheels.points.len() {
             let ports = &self.ports[axle / AXLES];
             let at = axle % AXLES * PORTS;
             let [s, v] = ports.motion.each_ref().map(|x| &x[at..at + PORTS]);
-            let [least, most] = ports.contact.geometry().extent();
+            let ([least, most], place) = (ports.contact.geometry().extent(), &ports.places[axle % AXLES]);
             for (side, name) in [(0, "left"), (1, "right")] {
-                let (d, patches) = ports.lever.patches(&ports.contact, side, s, v, &ports.places[axle % AXLES]);
+                let d = ports.lever.motion(side, s, v, place)[0];
                 if d > most || d < least {
+                    let (_, patches) = ports.lever.patches(&ports.contact, side, s, v, place);
                     let (y, q) = patches.iter().fold((0.0, 0.0), |(y, q), p| (y - p.across, q - p.down));
                     let ratio = if q > 0.0 { format!("{:.2}", y / q) } else { "without load".into() };
                     let (wheel, x, mm) = (axle + 1, self.wheels.position(axle, t), 1e3 * d);

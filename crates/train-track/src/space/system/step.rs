@@ -6,7 +6,7 @@ use ttb_contract::finite::not_finite;
 use ttb_dynamics::newmark::Motion;
 use ttb_wheel_rail::patch::Contacting;
 
-use super::super::axle::{FIRST_RAIL, PORTS, RAIL_PORTS};
+use super::super::axle::{PORTS, RAIL_PORTS};
 use super::super::car::AXLES;
 use super::super::newton::Of;
 use super::super::rails::W_SUM;
@@ -50,11 +50,8 @@ impl SpaceSystem {
                 free.copy_from_slice(history);
             }
             matrices.track.factor.solve(&mut self.free[0]);
-            for (k, factors) in matrices.lines.iter().enumerate() {
-                // A line that feels the deck is solved with every deck motion below.
-                if !self.lines.lines[k].0.feels_deck() {
-                    factors.factor.solve(&mut self.free[k + 1]);
-                }
+            for (factors, free) in matrices.lines.iter().zip(&mut self.free[1..]) {
+                factors.factor.solve(free);
             }
             self.free_cars(matrices, &old.cars, t);
             self.history_for = Some((Arc::clone(old), newmark.h.to_bits(), t.to_bits()));
@@ -65,13 +62,8 @@ impl SpaceSystem {
             [[deck[2 * supports + i], deck[4 * supports + i]], [deck[3 * supports + i], deck[5 * supports + i]]]
         };
         self.prepared.track.deck_forces(&deck[..2 * supports], &mut self.deck_forces);
-        for (k, factors) in matrices.lines.iter().enumerate() {
-            let (line, free) = (&self.lines.lines[k].0, &mut self.free[k + 1]);
-            if line.feels_deck() {
-                free.copy_from_slice(&self.history[k + 1]);
-                line.add_deck(across, free);
-                factors.factor.solve(free);
-            }
+        for ((line, _), forces) in self.lines.lines.iter().zip(&mut self.line_forces) {
+            line.deck_forces(across, forces);
         }
         self.free_car_ports(newmark, &old.cars);
         self.free_rail_ports(matrices, old);
@@ -90,8 +82,7 @@ impl SpaceSystem {
             line.add_deck(across, &mut new.lines[k].u);
         }
         for axle in 0..self.wheels.points.len() {
-            let at = axle % AXLES * PORTS + FIRST_RAIL;
-            let f = &self.ports[axle / AXLES].f[at..at + RAIL_PORTS];
+            let f = self.ports[axle / AXLES].on_rails(axle % AXLES);
             self.prepared.track.add_force(&self.wheels.points[axle], f[W_SUM], &mut new.track.u);
             for (k, (line, ports)) in self.lines.lines.iter().enumerate() {
                 for (own, port) in ports.iter().enumerate() {
@@ -133,30 +124,34 @@ impl SpaceSystem {
         }
     }
 
-    /// s_free and ṡ_free of the rails' ports.
+    /// Takes the rails' free motion into s_free and ṡ_free.
     fn free_rail_ports(&mut self, matrices: &SpaceStep, old: &SpaceState) {
         let newmark = &matrices.newmark;
         let track = &self.prepared.track;
         for axle in 0..self.wheels.points.len() {
             let point = &self.wheels.points[axle];
-            let at = axle % AXLES * PORTS + FIRST_RAIL;
+            let mut motion = [[0.0; RAIL_PORTS]; 2];
+            let mut set = |port: usize, s: f64, gone: f64| {
+                (motion[0][port], motion[1][port]) = (s, newmark.a[1] * s - gone);
+            };
             let reached = matrices.track.compliance.to_supports(point, &mut self.to_supports);
             let from_deck: f64 =
                 self.to_supports[reached.clone()].iter().zip(&self.deck_forces[reached]).map(|(y, f)| y * f).sum();
-            let ports = &mut self.ports[axle / AXLES];
             let s = track.deflection(point, &self.free[0]) + from_deck;
             let dofs = track.element_dofs(point.element);
             let past = |motion: &Motion, i: usize| newmark.damping(motion.u[i], motion.v[i], motion.a[i]);
             let gone: f64 = dofs.iter().zip(point.row).map(|(i, n)| n * past(&old.track, *i)).sum();
-            (ports.free[0][at], ports.free[1][at]) = (s, newmark.a[1] * s - gone);
+            set(W_SUM, s, gone);
             for (k, (line, rail_ports)) in self.lines.lines.iter().enumerate() {
                 let point = &self.points[k][axle];
+                let from_deck = matrices.lines[k].by_deck(line, point, &self.line_forces[k]);
                 for (own, port) in rail_ports.iter().enumerate() {
-                    let s = line.at(point, own, &self.free[k + 1]);
+                    let s = line.at(point, own, &self.free[k + 1]) + from_deck[own];
                     let gone = line.of(point, own, |i| past(&old.lines[k], i));
-                    (ports.free[0][at + port], ports.free[1][at + port]) = (s, newmark.a[1] * s - gone);
+                    set(*port, s, gone);
                 }
             }
+            self.ports[axle / AXLES].meet_rails(axle % AXLES, motion);
         }
     }
 
