@@ -54,6 +54,31 @@ fn r1_in_space_has_its_printed_digits() {
     assert!(low.abs().max(high.abs()) < 1e-12, "{low} … {high} m to the side");
 }
 
+#[test]
+fn r1_in_space_is_the_plane_run() {
+    let mut plane = ttb_tests::example("r1.json");
+    let mut space = r1();
+    for checked in [&mut plane, &mut space] {
+        checked.scenario.coupling.tolerance = 1e-13;
+    }
+    let (plane, space) = (library_run(&plane), library_run(&space));
+    for (name, of) in [
+        ("point[mid].displacement", None),
+        ("point[mid].acceleration", None),
+        // Of a body 0.45 m below its place without weight, times 4/h²: both runs have their rounding.
+        ("car[1].acceleration", Some(9.81)),
+        ("car[1].pitch_acceleration", None),
+        ("wheel[1].contact_force", None),
+        ("wheel[4].contact_force", None),
+        ("wheel[2].rail_displacement", None),
+    ] {
+        let [own, known] = [&space, &plane].map(|table| table.column(name));
+        let scale = of.unwrap_or_else(|| known.iter().fold(0.0_f64, |most, x| most.max(x.abs())));
+        let off = own.iter().zip(known).fold(0.0_f64, |most, (a, b)| most.max((a - b).abs())) / scale;
+        assert!(off < 1e-9, "{name}: {off:e}");
+    }
+}
+
 /// A car over a girder beside whose axis it runs, on waves that bring flanges to the rails.
 fn over_a_girder(track: &str, bays: usize) -> Checked {
     let text = format!(
