@@ -67,8 +67,18 @@ pub fn of_profiles(wheel: &Shape, rail: &Placed, pairing: &Pairing) -> Result<Ge
     let u = |i: i64| taping + i as f64 * spacing;
     let rails: Vec<Option<Point>> = (below - half..=above + half).map(|i| rail.at(u(i))).collect();
     let heights = rails.iter().map(|rail| rail.map_or(f64::INFINITY, |rail| rail.z)).collect();
-    let wheel_heights = wheel.iter().map(|point| point.z).collect();
-    let sums = Sums { wheel: &wheel, rails: &rails, wheel_heights, heights, below, half, u: &u, softness, spacing };
+    let sums = Sums {
+        wheel_heights: wheel.iter().map(|point| point.z).collect(),
+        wheel_curvatures: wheel.iter().map(Point::curvature).collect(),
+        heights,
+        slopes: rails.iter().map(|rail| rail.map_or(0.0, |rail| rail.slope)).collect(),
+        curvatures: rails.iter().map(|rail| rail.map_or(0.0, |rail| rail.curvature())).collect(),
+        below,
+        half,
+        u: &u,
+        softness,
+        spacing,
+    };
     let mut tread = part(&sums, [at, above], half);
     let mut flange = part(&sums, [below, at], half);
     let [start, end] = tread.extent();
@@ -91,11 +101,13 @@ pub fn of_profiles(wheel: &Shape, rail: &Placed, pairing: &Pairing) -> Result<Ge
 }
 
 struct Sums<'a> {
-    wheel: &'a [Point],
-    rails: &'a [Option<Point>],
-    /// z alone, infinite where there is no rail.
+    /// z and curvature of the wheel's points.
     wheel_heights: Vec<f64>,
+    wheel_curvatures: Vec<f64>,
+    /// z, slope and curvature of the rail's; z is infinite where there is no rail.
     heights: Vec<f64>,
+    slopes: Vec<f64>,
+    curvatures: Vec<f64>,
     /// Index of the wheel's first point; s = index × spacing.
     below: i64,
     half: i64,
@@ -120,7 +132,7 @@ impl Sums<'_> {
         let over = (first + shift - self.below + self.half) as usize;
         let count = (last - first + 1) as usize;
         let (wheels, rails) = (&self.wheel_heights[at..at + count], &self.heights[over..over + count]);
-        let closest = wheels.iter().zip(rails).map(|(wheel, rail)| rail - wheel).fold(f64::INFINITY, least);
+        let closest = smallest_gap(wheels, rails);
         if !closest.is_finite() {
             return None;
         }
@@ -131,15 +143,14 @@ impl Sums<'_> {
             if gap > negligible {
                 continue;
             }
-            let (wheel, Some(rail)) = (&self.wheel[at + i], &self.rails[over + i]) else { continue };
             // Trapezoidal rule.
             let end = if i == 0 || i + 1 == count { 0.5 } else { 1.0 };
             let p = end * (-(gap - closest) / self.softness).exp();
             sum += p;
-            node.slope += p * rail.slope;
+            node.slope += p * self.slopes[over + i];
             node.across += p * (self.u)(first + i as i64 + shift);
-            node.radius_change += p * wheel.z;
-            node.curvature += p * (rail.curvature() - wheel.curvature());
+            node.radius_change += p * wheel;
+            node.curvature += p * (self.curvatures[over + i] - self.wheel_curvatures[at + i]);
         }
         Some(Node {
             distance: 1e-3 * (closest - self.softness * (sum * self.spacing).ln()),
@@ -149,6 +160,17 @@ impl Sums<'_> {
             curvature: (1e3 * node.curvature / sum).max(LEAST_CURVATURE),
         })
     }
+}
+
+/// The smallest of rail − wheel; lanes, each with its own smallest, do not wait for each other.
+fn smallest_gap(wheels: &[f64], rails: &[f64]) -> f64 {
+    let ((wheels, rest_w), (rails, rest_r)) = (wheels.as_chunks::<8>(), rails.as_chunks::<8>());
+    let mut lanes = [f64::INFINITY; 8];
+    for (wheels, rails) in wheels.iter().zip(rails) {
+        (0..8).for_each(|i| lanes[i] = least(lanes[i], rails[i] - wheels[i]));
+    }
+    let rest = rest_w.iter().zip(rest_r).map(|(wheel, rail)| rail - wheel);
+    lanes.into_iter().chain(rest).fold(f64::INFINITY, least)
 }
 
 /// The smaller of two numbers that are no NaN, in one instruction.
