@@ -13,6 +13,7 @@ use super::car::AXLES;
 use super::newton::{CarPorts, Of};
 use super::rails::W_SUM;
 use super::state::SpaceState;
+use super::statics::lean;
 use super::system::{SpaceStep, SpaceSystem};
 use crate::compliance::RailCompliance;
 use crate::prepared::TrackFactors;
@@ -39,6 +40,9 @@ pub fn pre_roll(
     system.fill(&matrices.cars, &statics, &lines.statics, false);
     let of = Of { a1: newmark.a[1], gamma: newmark.gamma, h: newmark.h, rails_move: false };
     let rails = rails_without_wheels(system, state);
+    // The state stands on the rails of t = 0.
+    system.meet(-(steps as f64) * newmark.h);
+    lean(system, state);
     let (mut old, mut new) = (state.cars.clone(), state.cars.clone());
     system.begin_ports(state);
     // Only contacts and links change from step to step: J stands until a correction gains too little by it.

@@ -1,4 +1,4 @@
-//! Rest of train and track in space: vertical equilibrium with all lateral motions of the cars held and creep off.
+//! Rest of train and track in space: vertical equilibrium with all lateral motions of bodies and bogies held and creep off.
 //!
 //! ```text
 //! Q = N cos γ of both wheels of an axle, from the plane equilibrium with   F = 2 (δ/G′)^{3/2},  G′ = G/cos^{5/3}γ,  r + g(D)
@@ -6,10 +6,16 @@
 //! g(D) − φ_d (y_r − u_c)  in place of g(D)              and roll under contacts beside their axes
 //! ```
 //!
-//! D and Q are found in turn; a few rounds, since the spread changes Q in the last digits only.
+//! D and Q are found in turn; a few rounds, since the spread changes Q in the last digits only. Where cross-level, alignment or
+//! the deck make both rails differ, wheelsets lean and stand between them as they do on straight track, so that both wheels of an
+//! axle carry the same; bodies and bogies stay upright:
+//!
+//! ```text
+//! φ = φ_s + (w_a + (r_R − r_L)/2 − φ_s y_r)/u_c,   y = φ r0 + v_s + φ_s h_h + (a_L + a_R)/2
+//! ```
 
 use super::axle::{PORTS, RAILS};
-use super::car::{AXLES, DOFS, OF_BODY};
+use super::car::{AXLES, DOFS, FIRST_WHEELSET, OF_BODY};
 use super::state::SpaceState;
 use super::system::SpaceSystem;
 use crate::coupled::TrainTrackSystem;
@@ -106,9 +112,26 @@ pub fn rest(
         let rail = system.prepared.track.deflection(point, &state.track.u);
         state.ports[1][at + 1] = z - rail - point.local_compliance * plane_state.forces[axle];
     }
+    lean(system, state);
     system.support_forces(state, &held);
     state.deck.copy_from_slice(deck);
     Ok(())
+}
+
+/// Wheelsets lean and stand between their rails, wherever these are, so that both wheels of an axle carry the same.
+pub fn lean(system: &SpaceSystem, state: &mut SpaceState) {
+    for axle in 0..system.wheels.points.len() {
+        let (at, ports) = (ports_before(system, axle), &system.ports[axle / AXLES]);
+        let (lever, [left, right]) = (ports.lever, ports.places[axle % AXLES].irregularity);
+        let dof = axle / AXLES * DOFS + FIRST_WHEELSET + axle % AXLES * OF_BODY;
+        let (q, s) = (&mut state.cars.u[dof..dof + OF_BODY], &mut state.ports[1][at..at + PORTS]);
+        let (sway, tilt, roll) = (q[0] - s[0], s[5], s[6]);
+        let d = -(s[7] + s[8] * lever.head + 0.5 * (right[0] - left[0]));
+        let twist = tilt + 0.5 * (right[1] - left[1]) - roll * lever.rail;
+        q[2] = roll + twist / ports.contact.tread(d).across;
+        q[0] = q[2] * lever.radius + sway + roll * lever.head + 0.5 * (left[0] + right[0]);
+        (s[0], s[2]) = (q[0] - sway, q[2]);
+    }
 }
 
 fn ports_before(system: &SpaceSystem, axle: usize) -> usize {

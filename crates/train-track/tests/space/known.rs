@@ -110,3 +110,26 @@ fn wheels_at_rest_share_the_cars_weight() {
         assert!((8.0 * q / weight - 1.0).abs() < 1e-9, "{name}: {q} of {weight}");
     }
 }
+
+/// Cross-level of 10 mm and alignment of 5 mm under the whole car at its start: wheelsets lean and stand aside, and no wheel
+/// jumps. (Bodies that stay upright press 2 Σ k b² φ through the primary springs.)
+#[test]
+fn wheels_at_rest_share_their_axles_load_on_rails_of_unequal_height() {
+    let mut spec = spec("manchester", 40.0);
+    let wave = |amplitude: f64| Wave { amplitude, wavelength: 4000.0, phase: std::f64::consts::FRAC_PI_2 };
+    let whole = |amplitude: f64| Profile::Waves { waves: vec![wave(amplitude)], origin: 30.0, ramp: None };
+    space(&mut spec).irregularity.cross_level = whole(10e-3);
+    space(&mut spec).irregularity.alignment = whole(5e-3);
+    space(&mut spec).contact.creep = Creep::None;
+    let weight = Car::new(&space(&mut spec).cars[0]).unwrap().weight.iter().sum::<f64>();
+    let mut instance = started(spec);
+    for name in ["wheel[1].left.vertical_force", "wheel[1].right.vertical_force", "wheel[4].right.vertical_force"] {
+        let q = value(&mut instance, name);
+        assert!((8.0 * q / weight - 1.0).abs() < 1e-3, "{name}: {q} of {weight}");
+    }
+    for n in 0..100 {
+        advance(&mut instance, n, 1e-3, [0.0; 3]);
+        let q = value(&mut instance, "wheel[1].left.vertical_force");
+        assert!(8.0 * q / weight > 0.5 && 8.0 * q / weight < 1.5, "step {n}: {q} of {weight}");
+    }
+}
