@@ -8,6 +8,7 @@ from pathlib import Path
 
 import pytest
 from fmu import Fmu
+from scenario import changed
 
 REPOSITORY = Path(__file__).resolve().parents[2]
 
@@ -76,7 +77,24 @@ def default(ttb, tmp_path_factory):
     return Pair.at(folder)
 
 
-@pytest.fixture(scope="session", params=["r1 train_track", "r1 bridge", "default train_track", "default bridge"])
+@pytest.fixture(scope="session")
+def space_run(ttb, examples, tmp_path_factory):
+    """The folder of `ttb run` of a short stretch of examples/space-manchester.json, results in `out`."""
+    folder = tmp_path_factory.mktemp("space")
+    (folder / "bridges").symlink_to(examples / "bridges")
+    short = {"time.end": 0.08, "train.front_wheel": 62}
+    scenario = changed(examples / "space-manchester.json", folder / "scenario.json", short)
+    ttb("run", scenario, "-o", folder / "out", "--quiet", "--set", "output.supports=true")
+    return folder
+
+
+@pytest.fixture(scope="session")
+def space(space_run):
+    """The FMUs of that run: train, track and bridge in space."""
+    return Pair.at(space_run / "out")
+
+
+@pytest.fixture(scope="session", params=[f"{name} {side}" for name in ("r1", "default", "space") for side in ("train_track", "bridge")])
 def any_fmu(request):
     """Each FMU in turn."""
     scenario, side = request.param.split()
