@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use ttb_contract::Failure;
 use ttb_coupling::IterationError;
 use ttb_fmi::FmuError;
 use ttb_fmi::archive::UnpackError;
@@ -23,6 +24,9 @@ pub enum Error {
     /// A step did not converge.
     #[error("{0}")]
     NotConverged(IterationError),
+    /// A subsystem ends the run: a wheel has left its rail.
+    #[error("{0}")]
+    Ended(String),
     /// All steps were taken, but the results cannot be believed.
     #[error("{0}")]
     BlownUp(String),
@@ -78,7 +82,7 @@ impl Error {
         match self {
             Self::Findings { .. } => 1,
             Self::Scenario(_) | Self::Input(_) => 2,
-            Self::NotConverged(_) | Self::BlownUp(_) => 3,
+            Self::NotConverged(_) | Self::Ended(_) | Self::BlownUp(_) => 3,
             Self::Fmu(_) | Self::NoReturn(_) => 4,
             Self::Io { .. } | Self::Pack(_) => 5,
             Self::Exceeded { .. } => 6,
@@ -92,6 +96,7 @@ impl Error {
         match self {
             Self::Scenario(_) | Self::Input(_) => "bad-input",
             Self::NotConverged(_) => "not-converged",
+            Self::Ended(_) => "ended",
             Self::BlownUp(_) => "blown-up",
             Self::Fmu(_) | Self::NoReturn(_) => "fmu-failed",
             Self::Io { .. } | Self::Pack(_) => "io-failed",
@@ -120,7 +125,8 @@ impl Error {
 impl From<IterationError> for Error {
     fn from(error: IterationError) -> Self {
         match error {
-            failed @ (IterationError::Subsystem(_) | IterationError::NotFinite { .. }) => Self::Fmu(failed.to_string()),
+            IterationError::Subsystem(failure) => failure.into(),
+            failed @ IterationError::NotFinite { .. } => Self::Fmu(failed.to_string()),
             error @ IterationError::NoReturn { .. } => {
                 Self::Fmu(format!("{error}; \"roll_back\": false in the bridge's map (--map) does without"))
             }
@@ -148,11 +154,18 @@ impl From<ttb_dossier::Error> for Error {
     }
 }
 
+impl From<Failure> for Error {
+    fn from(failure: Failure) -> Self {
+        let told = failure.to_string();
+        if failure.ended { Self::Ended(told) } else { Self::Fmu(told) }
+    }
+}
+
 impl From<RunError> for Error {
     fn from(error: RunError) -> Self {
         match error {
             RunError::Iteration(error) => error.into(),
-            RunError::Subsystem(failure) => Self::Fmu(failure.to_string()),
+            RunError::Subsystem(failure) => failure.into(),
             RunError::Refused(Refusal::Input(text)) => Self::Input(text),
             RunError::Refused(Refusal::Subsystem(text)) => Self::Fmu(text),
             RunError::Refused(Refusal::NoReturn(text)) => Self::NoReturn(text),

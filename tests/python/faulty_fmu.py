@@ -225,7 +225,7 @@ STEPS = [
     Fault("exit late", {"exit"}, says="exit(0)", defines=["STEP_EXIT"], reached=0.3),
     Fault("exit at once late", {"exit"}, says="exit(7)", defines=["STEP_EXIT_AT_ONCE"], reached=0.3),
     Fault("an end of the thread late", {"abort"}, says="exit(0)", defines=["STEP_ENDS_THREAD"], reached=0.3),
-    Fault("an end late", {"ends"}, says="fmi2Discard", defines=["ENDS_LATE"], reached=0.3, checked=0),
+    Fault("an end late", {"ends"}, code=3, says="fmi2Discard", defines=["ENDS_LATE"], reached=0.3, checked=0),
     Fault("hang late", {"hang"}, None, defines=["STEP_HANG"]),
     Fault("warnings", {"warnings"}, 0, defines=["WARNS"]),
     Fault("a fixed step", {"step-halved", "step-jitter"}, None, defines=["FIXED_STEP"]),

@@ -1,6 +1,7 @@
 """A run in space: its FMUs under masters in Python and in libcosim, closed forms, vertical bridges, maps, derailment."""
 
 import json
+import re
 
 import numpy as np
 import pytest
@@ -142,6 +143,43 @@ def test_the_bridges_fmu_bends_and_twists_as_closed_forms_say(ttb, tmp_path):
                 instance.set({f"support[{support}].{force}": 1e4})
                 found = instance.get(f"support[{support}].{motion}")
             assert found == pytest.approx(1e4 * expected, rel=1e-9), (support, force)
+
+
+def test_a_derailment_ends_the_run_with_its_axle_place_and_ratios(ttb, tmp_path):
+    """Rails that turn aside by 30 mm within some metres, at 60 m/s: exit code 3, results kept, also in processes of their own."""
+    scenario = {
+        "title": "a kick",
+        "train": {"cars": ["manchester"], "front_wheel": 25, "speed": {"m_s": 60}, "pre_roll": 0},
+        "space": {
+            "irregularity": {
+                "type": "harmonics",
+                "alignment": [{"amplitude": 0.03, "wavelength": 10}],
+                "origin": 30,
+                "ramp": {"start": 30, "length": 5},
+            }
+        },
+        "track": {"type": "slab", "from": -15, "bays": 160},
+        "bridge": {
+            "at": 60,
+            "structure": {"type": "beams", "spans": [{"length": 13, "bending_stiffness": 1e11, "mass": 1e4}]},
+            "damping": {"type": "rayleigh", "ratio": 0.02, "at": {"first_times": 4}},
+        },
+        "time": {"step": 1e-3, "end": 1.0},
+    }
+    (tmp_path / "kick.json").write_text(json.dumps(scenario))
+    for out, more in (("out", []), ("isolated", ["--isolate=both"])):
+        done = ttb("run", tmp_path / "kick.json", "-o", tmp_path / out, "--quiet", *more, expect=3)
+        told = re.search(r"the train derails: the (left|right) wheel of axle 1 leaves its rail at x = (\S+) m, t = (\S+) s", done.stderr)
+        assert told, done.stderr
+        assert re.search(r"last Y/Q \S+ left, \S+ right", done.stderr), done.stderr
+        x, t = float(told[2]), float(told[3])
+        assert x == pytest.approx(25 + 60 * t, abs=1e-3)
+        summary = json.loads((tmp_path / out / "summary.json").read_text())
+        assert (summary["status"], summary["error"]) == ("ended", done.stderr.split("ttb: ")[-1].strip())
+        found = read_csv(tmp_path / out / "results.csv")
+        assert found["time"][-1] == pytest.approx(t - 1e-3, abs=1e-9) == summary["reached_s"]
+        # It had climbed.
+        assert found["wheel[1].right.derailment_ratio"].max() > 1.0
 
 
 def test_compare_says_that_it_is_plane(ttb, space_run, tmp_path):

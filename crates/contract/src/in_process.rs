@@ -29,7 +29,7 @@ impl<M: Model> InProcess<M> {
         &mut self.instance
     }
     fn failure(&self, error: &ModelError) -> Failure {
-        Failure { subsystem: self.name.clone(), message: error.0.clone() }
+        Failure::new(&self.name, &error.0)
     }
 }
 
@@ -52,7 +52,7 @@ impl<M: Model> Subsystem for InProcess<M> {
         self.instance.exit_initialization().map_err(|e| self.failure(&e))
     }
     fn step(&mut self, t: f64, h: f64, _may_restore: bool) -> Result<(), Failure> {
-        self.instance.step(t, h).map_err(|e| self.failure(&e))
+        self.instance.step(t, h).map_err(|e| Failure { ended: self.instance.model().has_ended(), ..self.failure(&e) })
     }
     fn save(&mut self) -> Result<(), Failure> {
         match &mut self.slot {
@@ -65,7 +65,7 @@ impl<M: Model> Subsystem for InProcess<M> {
         let Some(slot) = &self.slot else {
             return Err(self.failure(&ModelError("restore without a saved state".into())));
         };
-        self.instance.restore(slot).map_err(|e| Failure { subsystem: self.name.clone(), message: e.0 })
+        self.instance.restore(slot).map_err(|e| Failure::new(&self.name, e.0))
     }
     fn work(&mut self) -> Result<Option<f64>, Failure> {
         let Some(reference) = self.work else { return Ok(None) };

@@ -59,6 +59,12 @@ pub trait Model: Send + Sized + 'static {
     /// The step cannot be done (contact iteration fails, the train leaves the track, an input is not finite).
     fn step(&mut self, values: &mut Values, t: f64, h: f64) -> Result<(), ModelError>;
 
+    /// Whether the last step could not be done because the run ends there, as where a wheel leaves its rail: a result and no
+    /// fault. The message is the step's.
+    fn has_ended(&self) -> bool {
+        false
+    }
+
     /// The dynamic state, shared, not copied.
     fn save(&self) -> Self::State;
 

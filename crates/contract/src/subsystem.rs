@@ -7,6 +7,15 @@ pub struct Failure {
     pub subsystem: String,
     /// What it was asked, what it answered, what it logged.
     pub message: String,
+    /// Whether it ends the run of its own accord: a result and no fault.
+    pub ended: bool,
+}
+
+impl Failure {
+    /// A fault.
+    pub fn new(subsystem: impl Into<String>, message: impl Into<String>) -> Self {
+        Self { subsystem: subsystem.into(), message: message.into(), ended: false }
+    }
 }
 
 impl std::fmt::Display for Failure {
@@ -106,7 +115,7 @@ pub trait Subsystem {
     /// # Errors
     /// The subsystem cannot.
     fn derivative(&mut self, _seed: &[f64], _change: &mut [f64]) -> Result<(), Failure> {
-        Err(Failure { subsystem: "a subsystem".into(), message: "it provides no directional derivatives".into() })
+        Err(Failure::new("a subsystem", "it provides no directional derivatives"))
     }
 
     /// Chooses the outputs that [`Subsystem::read`] reads, those that are `wanted`, and tells them in its order.

@@ -75,7 +75,7 @@ impl Subsystem for Once {
             Some(Derives::TooLarge) => change.iter_mut().zip(seed.iter().cycle()).for_each(|(c, s)| *c = 1e-4 * s),
             _ => {
                 assert!(!self.several, "the bridge itself was asked");
-                return Err(Failure { subsystem: "once".into(), message: "no derivatives".into() });
+                return Err(Failure::new("once", "no derivatives"));
             }
         }
         Ok(())

@@ -16,9 +16,16 @@ pub enum Status {
     Fatal = 4,
     /// Still computing (FMI 2.0 only).
     Pending = 5,
+    /// Not done, and the FMU ends the simulation of its own accord. No C value: an importer that finds a discarded step asks.
+    Ended = 100,
 }
 
 impl Status {
+    /// The status of an [`Answer`](crate::slave::Answer): a C value, or [`Status::Ended`].
+    pub fn of_answer(status: i32) -> Self {
+        if status == Self::Ended as i32 { Self::Ended } else { Self::from_c(status) }
+    }
+
     /// The status behind a C value; a value outside the standard counts as [`Status::Fatal`].
     pub fn from_c(status: i32) -> Self {
         match status {
@@ -37,6 +44,7 @@ impl std::fmt::Display for Status {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
             Self::Ok => f.write_str("OK"),
+            Self::Ended => f.write_str("Discard, which ends the simulation"),
             other => write!(f, "{other:?}"),
         }
     }

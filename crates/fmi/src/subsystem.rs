@@ -81,7 +81,8 @@ impl FmuSubsystem {
         let subsystem = self.instance.name().to_string();
         let message = error.to_string();
         let message = message.strip_prefix(&format!("{subsystem}: ")).map_or(message.clone(), str::to_string);
-        Failure { subsystem, message }
+        let ended = matches!(error, FmuError::Call { status: crate::Status::Ended, .. });
+        Failure { subsystem, message, ended }
     }
 }
 

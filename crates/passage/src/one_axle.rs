@@ -197,7 +197,7 @@ impl Unit {
             }
             histories.iter_mut().zip(&row).for_each(|(history, value)| history.push(value / UNIT));
             if let Some(bad) = motions.iter().chain(&row).find(|value| !value.is_finite()) {
-                return Err(Failure { subsystem: bridge.name().into(), message: format!("it answers {bad} at {t} s") });
+                return Err(Failure::new(bridge.name(), format!("it answers {bad} at {t} s")));
             }
         }
         let mut recorded = Vec::new();
@@ -354,5 +354,5 @@ fn parsed(name: &str) -> Option<(&str, Option<Quantity>)> {
 }
 
 fn refused(what: &str) -> Failure {
-    Failure { subsystem: "bridge".into(), message: what.into() }
+    Failure::new("bridge", what)
 }

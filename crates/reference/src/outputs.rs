@@ -41,5 +41,5 @@ pub fn outputs(points: &[String], cars: usize) -> Vec<(Column, Place)> {
 
 /// A step of a method that failed.
 pub fn failed(why: impl std::fmt::Display) -> RunError {
-    RunError::from(Failure { subsystem: "reference".into(), message: why.to_string() })
+    RunError::from(Failure::new("reference", why.to_string()))
 }

@@ -32,7 +32,7 @@ impl Stepping for Clockwork {
     fn step(&mut self, t: f64, h: f64) -> Result<StepInfo, RunError> {
         assert!(self.started && (t - self.t).abs() < 1e-12);
         if self.fails_from.is_some_and(|from| t >= from) {
-            let failure = Failure { subsystem: "clockwork".into(), message: "it stands still".into() };
+            let failure = Failure::new("clockwork", "it stands still");
             return Err(RunError::Subsystem(failure));
         }
         self.t = t + h;

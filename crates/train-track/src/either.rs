@@ -101,6 +101,14 @@ impl Either {
         }
     }
 
+    /// Whether the last step could not be done because a wheel has left its rail.
+    pub fn has_ended(&self) -> bool {
+        match self {
+            Self::Plane(_) => false,
+            Self::Space(built) => built.has_ended(),
+        }
+    }
+
     /// Fills in all outputs at time `t`, s; `plane` of them are those of a plane run.
     pub fn outputs(&mut self, t: f64, plane: usize, out: &mut [f64]) {
         match self {

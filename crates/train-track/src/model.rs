@@ -168,6 +168,10 @@ impl Model for TrainTrack {
         self.outputs(values, t + h)
     }
 
+    fn has_ended(&self) -> bool {
+        self.built.as_ref().is_some_and(Either::has_ended)
+    }
+
     fn save(&self) -> Self::State {
         self.built.as_ref().map_or_else(|| Saved::Plane(Arc::new(State::rest(0, 0, 0, 0))), Either::save)
     }

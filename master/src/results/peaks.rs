@@ -30,7 +30,7 @@ pub struct Peak {
     pub not_finite_from: Option<f64>,
 }
 
-/// All extremes in column order; every peak's error follows from that of its kind, relative to the largest of the kind.
+/// All extremes in column order, without those of a run that ended before its peaks began to count; every peak's error follows from that of its kind, relative to the largest of the kind.
 pub fn told(peaks: &Peaks, choice: Option<&Choice>) -> Vec<Peak> {
     let mut of_kind: HashMap<String, f64> = HashMap::new();
     for peak in peaks.all() {
@@ -46,7 +46,8 @@ pub fn told(peaks: &Peaks, choice: Option<&Choice>) -> Vec<Peak> {
         estimated_error: error(&peak.column.series()),
         not_finite_from: peak.not_finite_from,
     };
-    peaks.all().iter().map(tell).collect()
+    let seen = |peak: &&ttb_session::observe::Peak| !peak.min.value.is_nan() || peak.not_finite_from.is_some();
+    peaks.all().iter().filter(seen).map(tell).collect()
 }
 
 /// A sentence on columns that were not finite at all times, if there are any.

@@ -34,6 +34,9 @@ impl Summary<'_> {
         if i.not_converged > 0 {
             say!("  NOT CONVERGED   {} of {} steps were accepted all the same", i.not_converged, i.steps);
         }
+        if self.peaks.0.is_empty() {
+            say!("  peaks           none: no wheel had come onto the bridge");
+        }
         let columns: Vec<Column> = self.peaks.0.iter().map(|peak| Column::parse(&peak.name, &peak.unit)).collect();
         let at_points = self.peaks.0.iter().zip(&columns).filter(|(_, column)| column.of.kind() == Kind::Point);
         for (peak, _) in at_points {

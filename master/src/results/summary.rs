@@ -107,8 +107,18 @@ pub struct Summary<'a> {
 }
 
 /// Every status there is.
-const STATUSES: [&str; 9] =
-    ["running", "ok", "bad-input", "not-converged", "blown-up", "fmu-failed", "io-failed", "findings", "interrupted"];
+const STATUSES: [&str; 10] = [
+    "running",
+    "ok",
+    "bad-input",
+    "not-converged",
+    "ended",
+    "blown-up",
+    "fmu-failed",
+    "io-failed",
+    "findings",
+    "interrupted",
+];
 
 /// Of the program, of FMI.
 #[derive(Debug, Serialize, JsonSchema)]

@@ -140,7 +140,7 @@ impl Subsystem for Side {
     }
     fn step(&mut self, t: f64, h: f64, _may_restore: bool) -> Result<(), Failure> {
         if self.input.iter().zip(&self.rate).any(|(v, r)| v + h * r > self.strongest) {
-            return Err(Failure { subsystem: "side".into(), message: "it is too much".into() });
+            return Err(Failure::new("side", "it is too much"));
         }
         self.time = t + h;
         self.refresh(h);

@@ -194,7 +194,7 @@ impl FmuInstance {
         if answer.status == Status::Ok as i32 {
             return Ok(());
         }
-        self.not_ok(call, Status::from_c(answer.status), mark)
+        self.not_ok(call, Status::of_answer(answer.status), mark)
     }
 
     /// That the library has a function.
@@ -223,7 +223,7 @@ impl FmuInstance {
                 return Ok(());
             }
             Status::Fatal => self.health = Health::Lost,
-            Status::Discard | Status::Error | Status::Pending => self.health = Health::Broken,
+            Status::Discard | Status::Ended | Status::Error | Status::Pending => self.health = Health::Broken,
         }
         let (prefix, messages) = (self.version.prefix, self.sink.since(mark));
         Err(FmuError::Call { instance, call: call.to_string(), prefix, status, messages })

@@ -24,6 +24,10 @@ impl Log {
     pub fn error(&self, message: &str) {
         self.send(Status::Error, LOG_CATEGORIES[0].0, message);
     }
+    /// Why the model ends the run.
+    pub fn end(&self, message: &str) {
+        self.send(Status::Discard, LOG_CATEGORIES[0].0, message);
+    }
     /// Something odd.
     pub fn warning(&self, message: &str) {
         self.send(Status::Warning, LOG_CATEGORIES[1].0, message);

@@ -9,7 +9,8 @@ use ttb_contract::Model;
 /// How far, relative to max(1, stop), a step may reach past the stop time: importers add up step sizes.
 const PAST_STOP: f64 = 1e-9;
 
-/// One step from t to t + h. A step that cannot be done is an error, never `fmi2Discard`: some masters retry that for ever.
+/// One step from t to t + h. A step that cannot be done is an error; `fmi2Discard`, which some masters retry for ever, says
+/// that the model ends the run there, and then `fmi2Terminated` is true.
 ///
 /// # Safety
 /// As [`guard`].
@@ -30,9 +31,17 @@ pub unsafe fn do_step<M: Model>(
             ));
         }
         c.step_failed = true; // until it is done
-        c.instance.step(t, h)?;
-        c.step_failed = false;
-        DONE
+        match c.instance.step(t, h) {
+            Err(end) if c.instance.model().has_ended() => {
+                c.log.end(&format!("fmi2DoStep: {end}"));
+                Ok(Status::Discard)
+            }
+            done => {
+                done?;
+                c.step_failed = false;
+                DONE
+            }
+        }
     };
     // SAFETY: by contract.
     unsafe { guard::<M>(c, Call { name: "fmi2DoStep", allowed: Stage::Stepping as u8 }, work) }
@@ -76,7 +85,11 @@ unsafe fn answer<M: Model, T>(
 /// # Safety
 /// As [`guard`]; `out` leads to a place for the result.
 pub unsafe fn get_status<M: Model>(c: fmi2Component, kind: fmi2StatusKind, out: *mut fmi2Status) -> fmi2Status {
-    let last = |c: &Component<M>| if c.step_failed { Status::Error as fmi2Status } else { Status::Ok as fmi2Status };
+    let last = |c: &Component<M>| match c.step_failed {
+        false => Status::Ok as fmi2Status,
+        true if has_ended(c) => Status::Discard as fmi2Status,
+        true => Status::Error as fmi2Status,
+    };
     // SAFETY: by contract.
     unsafe { answer(c, "fmi2GetStatus", (kind, status_kind::DO_STEP_STATUS), out, last) }
 }
@@ -101,7 +114,12 @@ pub unsafe fn get_integer_status<M: Model>(c: fmi2Component, kind: fmi2StatusKin
     unsafe { guard::<M>(c, call, |_| refuse(format!("there is no Integer status of kind {kind}"))) }
 }
 
-/// Whether this FMU wants to end the simulation: never.
+/// Whether the last step could not be done because the model ends the run there.
+fn has_ended<M: Model>(c: &Component<M>) -> bool {
+    c.step_failed && c.instance.model().has_ended()
+}
+
+/// Whether this FMU wants to end the simulation.
 ///
 /// # Safety
 /// As [`guard`]; `out` leads to a place for the result.
@@ -111,7 +129,11 @@ pub unsafe fn get_boolean_status<M: Model>(
     out: *mut fmi2Boolean,
 ) -> fmi2Status {
     // SAFETY: by contract.
-    unsafe { answer(c, "fmi2GetBooleanStatus", (kind, status_kind::TERMINATED), out, |_: &Component<M>| FMI2_FALSE) }
+    unsafe {
+        answer(c, "fmi2GetBooleanStatus", (kind, status_kind::TERMINATED), out, |c: &Component<M>| {
+            fmi2Boolean::from(has_ended(c))
+        })
+    }
 }
 
 /// Text about a pending step: always empty.

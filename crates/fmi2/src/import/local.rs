@@ -102,6 +102,15 @@ impl Local {
         status.map_or(GONE, |status| Answer { status, time, warnings: 0 })
     }
 
+    /// Whether the FMU ends the simulation of its own accord, as it may after a step that was discarded.
+    fn wants_end(&self) -> bool {
+        let Some(get) = self.functions.boolean_status else { return false };
+        let mut ends = FMI2_FALSE;
+        // SAFETY: a live instance and room for one value.
+        let asked = self.call(|_, c| unsafe { get(c, status_kind::TERMINATED, &raw mut ends) });
+        asked.status <= Status::Warning as i32 && ends != FMI2_FALSE
+    }
+
     /// A call that is rare, after which is looked at what it has changed in the process.
     fn rare(&self, work: impl FnOnce(&Functions, fmi2Component) -> fmi2Status) -> Answer {
         let answer = self.call(work);
@@ -145,7 +154,12 @@ impl Slave for Local {
         let no_restore = fmi2Boolean::from(!may_restore);
         self.steps = self.steps.wrapping_add(1);
         // SAFETY: a live instance.
-        let answer = self.call(|f, c| unsafe { (f.do_step)(c, t, h, no_restore) });
+        let mut answer = self.call(|f, c| unsafe { (f.do_step)(c, t, h, no_restore) });
+        if answer.status == Status::Discard as i32 && self.wants_end() {
+            answer.status = Status::Ended as i32;
+        } else if answer.status == Status::Ended as i32 {
+            answer.status = Status::Fatal as i32; // no value of the standard
+        }
         if self.steps.is_multiple_of(TIDY) {
             guard::put_back();
         }

@@ -9,6 +9,7 @@ use ttb_wheel_rail::contact::Contact;
 
 use super::axle::{Lever, PORTS};
 use super::car::{AXLES, Car, DOFS};
+use super::error::StepError;
 use super::newton::CarPorts;
 use super::outputs;
 use super::pre_roll::pre_roll;
@@ -27,6 +28,17 @@ use crate::step_means::StepMeans;
 use crate::track::Track;
 use crate::wheels::Wheels;
 
+/// A part of a macro step.
+#[derive(Clone, Copy)]
+struct Span {
+    /// Begin and length of the macro step, s after the start.
+    t: f64,
+    h: f64,
+    /// End and length of the part, in parts of the macro step.
+    to: f64,
+    size: f64,
+}
+
 /// A train on its track.
 pub struct SpaceBuilt {
     system: SpaceSystem,
@@ -44,6 +56,8 @@ pub struct SpaceBuilt {
     means: StepMeans,
     /// Mean forces of all supports: blocks of F_z, F_y, M_x.
     mean: Vec<f64>,
+    /// Whether the last step could not be done because a wheel has left its rail.
+    derailed: bool,
 }
 
 /// What a run begins with, besides its specification.
@@ -127,6 +141,7 @@ impl SpaceBuilt {
             deck: vec![0.0; 6 * supports],
             means: begin.means,
             mean: vec![0.0; 3 * supports],
+            derailed: false,
             system,
         })
     }
@@ -134,6 +149,11 @@ impl SpaceBuilt {
     /// The system.
     pub fn system(&self) -> &SpaceSystem {
         &self.system
+    }
+
+    /// Whether the last step could not be done because a wheel has left its rail.
+    pub fn has_ended(&self) -> bool {
+        self.derailed
     }
 
     /// Start of the run, s.
@@ -189,22 +209,32 @@ impl SpaceBuilt {
     /// A sub-step cannot be done; the state is then that of the last one that could.
     pub fn step(&mut self, inputs: &[f64], rates: Option<&[f64]>, t: f64, h: f64) -> Result<(), String> {
         let parts = self.sizes.parts(h)?;
-        let matrices = self.sizes.of(h / parts, |newmark| self.system.matrices(newmark))?;
-        let supports = self.mean.len() / 3;
-        let deck = Inputs { values: inputs, rates, meaning: self.input_meaning, supports };
-        let t = t - self.start;
+        let deck = Inputs { values: inputs, rates, meaning: self.input_meaning, supports: self.mean.len() / 3 };
         self.means.begin();
         self.mean.fill(0.0);
-        for part in 1..=parts as u64 {
-            let tau = h * (part as f64 / parts);
-            deck.at(tau, &self.state.deck, &mut self.deck);
-            let mut buffer = self.pool.take(|| SpaceState::clone(&self.state));
-            let Some(new) = Arc::get_mut(&mut buffer) else { return Err("a state buffer is in use".into()) };
-            self.system.step(matrices, &self.state, new, &self.deck, t + tau)?;
-            add([&self.state, new], parts, &self.system.prepared.track, &mut self.mean, &mut self.means);
-            self.pool.give(&buffer);
-            self.state = buffer;
-        }
+        self.derailed = false;
+        let done = (0..parts as u64).try_for_each(|part| {
+            let span = Span { t: t - self.start, h, to: (part + 1) as f64 / parts, size: 1.0 / parts };
+            self.advance(&deck, &span)
+        });
+        self.derailed = matches!(done, Err(StepError::Derailed(_)));
+        done.map_err(|error| error.to_string())
+    }
+
+    /// One step over a span, with matrices of its size.
+    fn advance(&mut self, deck: &Inputs, span: &Span) -> Result<(), StepError> {
+        let Span { t, h, to, size } = *span;
+        let matrices = self.sizes.of(h * size, |newmark| self.system.matrices(newmark))?;
+        let tau = h * to;
+        deck.at(tau, &self.state.deck, &mut self.deck);
+        let mut buffer = self.pool.take(|| SpaceState::clone(&self.state));
+        let Some(new) = Arc::get_mut(&mut buffer) else {
+            return Err(StepError::Refused("a state buffer is in use".into()));
+        };
+        self.system.step(matrices, &self.state, new, &self.deck, t + tau)?;
+        add([&self.state, new], size, &self.system.prepared.track, &mut self.mean, &mut self.means);
+        self.pool.give(&buffer);
+        self.state = buffer;
         Ok(())
     }
 
@@ -258,13 +288,13 @@ impl SpaceBuilt {
     }
 }
 
-/// Takes one of `parts` sub-steps, between two states, into means, work and peaks.
-fn add([old, new]: [&SpaceState; 2], parts: f64, track: &Track, mean: &mut [f64], means: &mut StepMeans) {
+/// Takes a step between two states, `size` of a macro step, into means, work and peaks.
+fn add([old, new]: [&SpaceState; 2], size: f64, track: &Track, mean: &mut [f64], means: &mut StepMeans) {
     let n = mean.len() / 3;
     for (k, mean) in mean.iter_mut().enumerate() {
         let force = 0.5 * (old.supports[k] + new.supports[k]);
         let at = k / n * 2 * n + k % n;
-        *mean += force / parts;
+        *mean += size * force;
         means.work += force * (new.deck[at] - old.deck[at]);
     }
     means.mean.copy_from_slice(&mean[..n]);

@@ -13,6 +13,7 @@ pub mod axle;
 pub mod built;
 pub mod car;
 pub mod element;
+pub mod error;
 pub mod line;
 mod lu;
 pub mod newton;

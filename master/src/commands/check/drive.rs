@@ -156,7 +156,7 @@ impl<'a> Drive<'a> {
                 self.warnings += 1;
                 return Ok(());
             }
-            Status::Discard => return Err(self.discarded(function, call)),
+            Status::Discard | Status::Ended => return Err(self.discarded(function, call)),
             Status::Error => "failed",
             Status::Fatal => "fatal",
             Status::Pending => "pending",

@@ -2,6 +2,7 @@
 
 use super::super::axle::PORTS;
 use super::super::car::AXLES;
+use super::super::error::StepError;
 use super::super::newton::{Of, solve};
 use super::super::state::SpaceState;
 use super::SpaceSystem;
@@ -52,39 +53,36 @@ impl SpaceSystem {
     ///
     /// # Errors
     /// No solution, or a wheel that has left its rail.
-    pub fn solve_ports(&mut self, of: &Of, t: f64) -> Result<(), String> {
+    pub fn solve_ports(&mut self, of: &Of, t: f64) -> Result<(), StepError> {
         solve(&mut self.ports, of).map_err(|error| {
             let car = error.car + 1;
-            if error.not_finite {
+            StepError::Unsolved(if error.not_finite {
                 format!("a wheel–rail contact of car {car} is not a finite number in the step to t = {t} s")
             } else {
                 format!("the wheel–rail contacts of car {car} did not converge in the step to t = {t} s")
-            }
+            })
         })?;
-        self.derailed(t)
+        (0..self.wheels.points.len()).try_for_each(|axle| self.derailed(axle, t))
     }
 
-    /// Whether a wheel has left its rail.
-    fn derailed(&self, t: f64) -> Result<(), String> {
-        for axle in 0..self.wheels.points.len() {
-            let ports = &self.ports[axle / AXLES];
-            let at = axle % AXLES * PORTS;
-            let [s, v] = ports.motion.each_ref().map(|x| &x[at..at + PORTS]);
-            let ([least, most], place) = (ports.contact.geometry().extent(), &ports.places[axle % AXLES]);
-            for (side, name) in [(0, "left"), (1, "right")] {
-                let d = ports.lever.motion(side, s, v, place)[0];
-                if d > most || d < least {
-                    let (_, patches) = ports.lever.patches(&ports.contact, side, s, v, place);
-                    let (y, q) = patches.iter().fold((0.0, 0.0), |(y, q), p| (y - p.across, q - p.down));
-                    let ratio = if q > 0.0 { format!("{:.2}", y / q) } else { "without load".into() };
-                    let (wheel, x, mm) = (axle + 1, self.wheels.position(axle, t), 1e3 * d);
-                    return Err(format!(
-                        "the train derails: the {name} wheel of axle {wheel} leaves its rail at x = {x:.3} m, t = {t} s \
-                         ({mm:.1} mm beside it, last Y/Q {ratio})"
-                    ));
-                }
-            }
-        }
-        Ok(())
+    /// Whether a wheel of an axle has left its rail.
+    fn derailed(&self, axle: usize, t: f64) -> Result<(), StepError> {
+        let (ports, at) = (&self.ports[axle / AXLES], axle % AXLES * PORTS);
+        let ([least, most], place) = (ports.contact.geometry().extent(), &ports.places[axle % AXLES]);
+        let [s, v] = ports.motion.each_ref().map(|x| &x[at..at + PORTS]);
+        let d = [0, 1].map(|side| ports.lever.motion(side, s, v, place)[0]);
+        let Some(side) = d.iter().position(|d| *d < least || *d > most) else { return Ok(()) };
+        let [left, right] = [0, 1].map(|side| {
+            let (_, patches) = ports.lever.patches(&ports.contact, side, s, v, place);
+            let (y, q) = patches.iter().fold((0.0, 0.0), |(y, q), p| (y - p.across, q - p.down));
+            if q > 0.0 { format!("{:.2}", y / q) } else { "unloaded".into() }
+        });
+        let (wheel, x, mm) = (axle + 1, self.wheels.position(axle, t), 1e3 * d[side]);
+        let (name, way) = (["left", "right"][side], if mm < 0.0 { "inwards" } else { "outwards" });
+        Err(StepError::Derailed(format!(
+            "the train derails: the {name} wheel of axle {wheel} leaves its rail at x = {x:.3} m, t = {t} s, {:.1} mm {way}; \
+             last Y/Q {left} left, {right} right",
+            mm.abs()
+        )))
     }
 }

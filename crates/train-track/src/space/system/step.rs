@@ -8,6 +8,7 @@ use ttb_wheel_rail::patch::Contacting;
 
 use super::super::axle::{PORTS, RAIL_PORTS};
 use super::super::car::AXLES;
+use super::super::error::StepError;
 use super::super::newton::Of;
 use super::super::rails::W_SUM;
 use super::super::state::SpaceState;
@@ -25,7 +26,7 @@ impl SpaceSystem {
         new: &mut SpaceState,
         deck: &[f64],
         t: f64,
-    ) -> Result<(), String> {
+    ) -> Result<(), StepError> {
         self.place(matrices, t)?;
         let newmark = &matrices.newmark;
         let key = |of: &Option<(Arc<SpaceState>, u64, u64)>| {
@@ -102,7 +103,10 @@ impl SpaceSystem {
         self.support_forces(new, deck);
         match not_finite(&new.supports) {
             None => Ok(()),
-            Some(i) => Err(format!("the force of support {} is {} at t = {t} s", i % supports + 1, new.supports[i])),
+            Some(i) => {
+                let (support, force) = (i % supports + 1, new.supports[i]);
+                Err(StepError::Refused(format!("the force of support {support} is {force} at t = {t} s")))
+            }
         }
     }
 
