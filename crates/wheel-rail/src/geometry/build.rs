@@ -44,6 +44,9 @@ const FLANGE_TOP: f64 = -0.1;
 /// The flange's table begins where it comes this close to the rail, m.
 const NEAR: f64 = 5e-3;
 
+/// Points whose smallest gap is looked at together: most blocks are far from each other and weigh nothing.
+const BLOCK: usize = 64;
+
 /// The table of `wheel` on `rail`.
 ///
 /// # Errors
@@ -132,14 +135,17 @@ impl Sums<'_> {
         let over = (first + shift - self.below + self.half) as usize;
         let count = (last - first + 1) as usize;
         let (wheels, rails) = (&self.wheel_heights[at..at + count], &self.heights[over..over + count]);
-        let closest = smallest_gap(wheels, rails);
+        let blocks = wheels.chunks(BLOCK).zip(rails.chunks(BLOCK));
+        let smallest: Vec<f64> = blocks.map(|(wheels, rails)| smallest_gap(wheels, rails)).collect();
+        let closest = smallest.iter().copied().fold(f64::INFINITY, least);
         if !closest.is_finite() {
             return None;
         }
         let negligible = closest + NEGLIGIBLE * self.softness;
         let (mut sum, mut node) = (0.0, Node::default());
-        for (i, (wheel, rail)) in wheels.iter().zip(rails).enumerate() {
-            let gap = rail - wheel;
+        let near = smallest.iter().enumerate().filter(|(_, gap)| **gap <= negligible);
+        for i in near.flat_map(|(block, _)| BLOCK * block..count.min(BLOCK * (block + 1))) {
+            let (wheel, gap) = (wheels[i], rails[i] - wheels[i]);
             if gap > negligible {
                 continue;
             }
