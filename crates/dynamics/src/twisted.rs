@@ -10,10 +10,16 @@
 //! ```
 //!
 //! (The "twisted" factorisation; Parlett & Dhillon, Linear Algebra Appl. 267, 1997, for b = 1.)
+//!
+//! A track is the same from bay to bay, and what its ends do to the factor decays: from some row on the coefficients repeat, to
+//! the last bit. They are kept once (module `repeating`), so that a solution reads little more than its own numbers.
+
+mod repeating;
 
 use nalgebra::DMatrix;
 
 use crate::band::{Band, NotPositiveDefinite};
+use repeating::Repeating;
 
 /// A pair of values: of the upper and of the lower half.
 type Pair = [f64; 2];
@@ -29,11 +35,11 @@ pub struct TwistedFactor {
     /// Coefficients a row: one of `WIDTHS`.
     width: usize,
     /// Row i of either half, counted from its end: coefficients of the rows behind, nearest first.
-    forward: Vec<Pair>,
+    forward: Repeating,
     /// Coefficients of the rows before, nearest first.
-    backward: Vec<Pair>,
+    backward: Repeating,
     /// Reciprocals of the pivots d.
-    inverse: Vec<Pair>,
+    inverse: Repeating,
     /// S⁻¹ by rows.
     middle: Vec<f64>,
 }
@@ -74,11 +80,13 @@ impl TwistedFactor {
             let (i, k) = (at / width, at % width + 1);
             if i >= k { forward[(i - k) * width + k - 1] } else { [0.0; 2] }
         });
-        let backward = backward.collect();
+        let backward: Vec<Pair> = backward.collect();
         let size = n - 2 * p;
         let entry = |i: usize, j: usize| if i.abs_diff(j) <= b { a.get(p + i, p + j) } else { 0.0 };
         let middle = DMatrix::from_fn(size, size, entry).cholesky();
         let middle = middle.ok_or(NotPositiveDefinite { row: p, pivot: f64::NAN })?.inverse();
+        let [forward, inverse] = Repeating::both([forward, inverse], [width, 1], p);
+        let backward = Repeating::new(backward, width, p);
         Ok(Self { p, width, forward, backward, inverse, middle: middle.as_slice().to_vec() })
     }
 
@@ -101,14 +109,18 @@ impl TwistedFactor {
     }
 
     fn solve_fixed<const B: usize>(&self, x: &mut [f64]) {
-        let (forward, _) = self.forward.as_chunks::<B>();
-        let (backward, _) = self.backward.as_chunks::<B>();
+        let (forward, _) = self.forward.kept().as_chunks::<B>();
+        let (backward, _) = self.backward.kept().as_chunks::<B>();
         let (upper, rest) = x.split_at_mut(self.p);
         let (middle, lower) = rest.split_at_mut(rest.len() - self.p);
         let mut sweep = Sweep::<B>::default();
-        for (((u, l), row), d) in upper.iter_mut().zip(lower.iter_mut().rev()).zip(forward).zip(&self.inverse) {
-            let y = sweep.next([*u, *l], row);
-            (*u, *l) = (y[0] * d[0], y[1] * d[1]);
+        for (rows, kept) in self.forward.parts() {
+            let lower = lower[self.p - rows.end..self.p - rows.start].iter_mut().rev();
+            let inverse = &self.inverse.kept()[kept.clone()];
+            for (((u, l), row), d) in upper[rows].iter_mut().zip(lower).zip(&forward[kept]).zip(inverse) {
+                let y = sweep.next([*u, *l], row);
+                (*u, *l) = (y[0] * d[0], y[1] * d[1]);
+            }
         }
         let size = middle.len();
         for k in 0..B.min(size) {
@@ -124,14 +136,17 @@ impl TwistedFactor {
         let mut sweep = Sweep::<B>::default();
         for k in 0..B.min(self.p) {
             // The k-th row before the middle holds coefficients of the middle's rows from its own distance on.
-            let row = &forward[self.p - 1 - k];
+            let row = &forward[self.forward.place(self.p - 1 - k)];
             for m in 0..(B - k).min(size) {
                 sweep.sums[k][0] += row[k + m][0] * middle[m];
                 sweep.sums[k][1] += row[k + m][1] * middle[size - 1 - m];
             }
         }
-        for ((u, l), row) in upper.iter_mut().zip(lower.iter_mut().rev()).zip(backward).rev() {
-            [*u, *l] = sweep.next([*u, *l], row);
+        for (rows, kept) in self.backward.parts().rev() {
+            let lower = lower[self.p - rows.end..self.p - rows.start].iter_mut().rev();
+            for ((u, l), row) in upper[rows].iter_mut().zip(lower).zip(&backward[kept]).rev() {
+                [*u, *l] = sweep.next([*u, *l], row);
+            }
         }
     }
 }
