@@ -96,15 +96,24 @@ def _sysroot():
 def programs(targets):
     """Both stages; a target and its program after the other."""
     for target in targets:
-        for crate in FMUS.values():
-            # A library alone: with the Rust library that others link it would not be optimised as a whole.
-            _cargo(target, "rustc", "--package", crate.replace("_", "-"), "--crate-type", "cdylib")
+        _libraries(target)
     archive = _folder() / "dist" / "libraries.zip"
     archive.parent.mkdir(parents=True, exist_ok=True)
     _compress(targets, archive)
     for target in targets:
         _cargo(target, target.build, "--package", "ttb", libraries=archive)
         yield target, _built(target) / f"ttb{target.suffix}"
+
+
+def _libraries(target):
+    """The FMUs' shared libraries, in one command: what they share is then compiled once."""
+    packages = [f"--package={crate.replace('_', '-')}" for crate in FMUS.values()]
+    if not target.environment:
+        _cargo(target, target.build, *packages)
+        return
+    for package in packages:
+        # Each alone: together with the Rust library that others link it would not be optimised as a whole.
+        _cargo(target, "rustc", package, "--crate-type", "cdylib")
 
 
 def _folder():
