@@ -28,7 +28,8 @@ impl Signal {
         match self.0 {
             SIGINT => "SIGINT",
             SIGTERM => "SIGTERM",
-            _ => "SIGHUP",
+            SIGHUP => "SIGHUP",
+            _ => "a signal",
         }
     }
 
