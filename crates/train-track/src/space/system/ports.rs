@@ -1,11 +1,17 @@
 //! Ports of all cars: begin, Newton's matrices, solution, end; wheels that leave their rail.
 
+use ttb_scenario::types::Creep;
+
 use super::super::axle::PORTS;
 use super::super::car::AXLES;
 use super::super::error::StepError;
 use super::super::newton::{Of, solve};
 use super::super::state::SpaceState;
 use super::SpaceSystem;
+
+/// Why the linear law may have no solution, and what has one.
+const UNBOUNDED: &str = ": linear creep forces have no bound at a flange, and where it begins to touch they may grow faster than \
+                         the rail resists; space.contact.creep shen or fastsim has one";
 
 impl SpaceSystem {
     /// Starts the ports from the forces, motions and inner states of a state.
@@ -59,7 +65,8 @@ impl SpaceSystem {
             StepError::Unsolved(if error.not_finite {
                 format!("a wheel–rail contact of car {car} is not a finite number in the step to t = {t} s")
             } else {
-                format!("the wheel–rail contacts of car {car} did not converge in the step to t = {t} s")
+                let unbounded = if self.loads.contact.creep == Creep::Linear { UNBOUNDED } else { "" };
+                format!("the wheel–rail contacts of car {car} did not converge in the step to t = {t} s{unbounded}")
             })
         })?;
         (0..self.wheels.points.len()).try_for_each(|axle| self.derailed(axle, t))
