@@ -25,8 +25,9 @@ class Failed(RuntimeError):
 
     @property
     def kind(self) -> str:
-        """The exit code in words."""
-        return CODES.get(self.code, f"exit code {self.code}")
+        """The exit code in words; ``ended`` for a run that a wheel off its rail has ended."""
+        ended = self.result is not None and self.result.summary.get("status") == "ended"
+        return "ended" if ended else CODES.get(self.code, f"exit code {self.code}")
 
 
 @dataclass(frozen=True)

@@ -67,7 +67,7 @@ Exit codes:
     0  ok
     1  ttb check has found errors or warnings
     2  bad input: every problem is listed
-    3  a step did not converge
+    3  a step did not converge, or a wheel has left its rail
     4  an FMU failed
     5  input or output failed
     6  ttb report --check: a limit is exceeded
