@@ -10,6 +10,7 @@ import numpy
 import pandas
 import pytest
 from conftest import REPOSITORY
+from scenario import KICK
 
 sys.path.insert(0, str(REPOSITORY / "python"))
 import ttb as interface  # noqa: E402
@@ -110,6 +111,14 @@ def test_a_run_that_fails_keeps_what_it_has_computed(short):
         interface.run(short, {"coupling": {"method": "fixed-point", "max_iterations": 1, "tolerance": 1e-14}})
     assert caught.value.code == 3 and caught.value.kind == "not converged"
     assert caught.value.result.summary["status"] == "not-converged"
+
+
+def test_a_derailment_is_no_failure_to_converge():
+    """Exit code 3, too, with the results until then."""
+    with pytest.raises(interface.Failed, match="the train derails") as caught:
+        interface.run(KICK)
+    assert (caught.value.code, caught.value.kind) == (3, "ended")
+    assert len(caught.value.result.frame()) > 100
 
 
 def test_check_gives_warnings(examples):

@@ -8,7 +8,7 @@ import pytest
 from conftest import Pair
 from fmpy.util import read_csv
 from fmu import FMU2Instance, Reals
-from scenario import changed
+from scenario import KICK, changed
 
 SHORT = {"time.end": 0.08}
 LATERAL = ("force_y", "moment_x", "displacement_y", "rotation_x", "velocity_y", "angular_velocity_x")
@@ -147,26 +147,7 @@ def test_the_bridges_fmu_bends_and_twists_as_closed_forms_say(ttb, tmp_path):
 
 def test_a_derailment_ends_the_run_with_its_axle_place_and_ratios(ttb, tmp_path):
     """Rails that turn aside by 30 mm within some metres, at 60 m/s: exit code 3, results kept, also in processes of their own."""
-    scenario = {
-        "title": "a kick",
-        "train": {"cars": ["manchester"], "front_wheel": 25, "speed": {"m_s": 60}, "pre_roll": 0},
-        "space": {
-            "irregularity": {
-                "type": "harmonics",
-                "alignment": [{"amplitude": 0.03, "wavelength": 10}],
-                "origin": 30,
-                "ramp": {"start": 30, "length": 5},
-            }
-        },
-        "track": {"type": "slab", "from": -15, "bays": 160},
-        "bridge": {
-            "at": 60,
-            "structure": {"type": "beams", "spans": [{"length": 13, "bending_stiffness": 1e11, "mass": 1e4}]},
-            "damping": {"type": "rayleigh", "ratio": 0.02, "at": {"first_times": 4}},
-        },
-        "time": {"step": 1e-3, "end": 1.0},
-    }
-    (tmp_path / "kick.json").write_text(json.dumps(scenario))
+    (tmp_path / "kick.json").write_text(json.dumps(KICK))
     for out, more in (("out", []), ("isolated", ["--isolate=both"])):
         done = ttb("run", tmp_path / "kick.json", "-o", tmp_path / out, "--quiet", *more, expect=3)
         told = re.search(r"the train derails: the (left|right) wheel of axle 1 leaves its rail at x = (\S+) m, t = (\S+) s", done.stderr)
