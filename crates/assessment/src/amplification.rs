@@ -32,7 +32,7 @@ pub fn phi_prime(v: f64, length: f64, n0: f64) -> f64 {
 /// φ″ of Annex C, for standard maintenance; half of it for carefully maintained track.
 pub fn phi_double_prime(v: f64, length: f64, n0: f64) -> f64 {
     let alpha = (v / 22.0).min(1.0);
-    let bell = |l: f64| (-(length / l).powi(2)).exp();
+    let bell = |l: f64| libm::exp(-(length / l).powi(2));
     (alpha / 100.0 * (56.0 * bell(10.0) + 50.0 * (length * n0 / 80.0 - 1.0) * bell(20.0))).max(0.0)
 }
 
@@ -48,14 +48,14 @@ pub fn phi_3(length: f64) -> f64 {
 
 /// The upper limit of n₀, Hz.
 pub fn n0_upper(length: f64) -> f64 {
-    94.76 * length.powf(-0.748)
+    94.76 * libm::pow(length, -0.748)
 }
 
 /// The lower limit of n₀, Hz; `None` outside 4 to 100 m.
 pub fn n0_lower(length: f64) -> Option<f64> {
     match length {
         l if (4.0..=20.0).contains(&l) => Some(80.0 / l),
-        l if l > 20.0 && l <= 100.0 => Some(23.58 * l.powf(-0.592)),
+        l if l > 20.0 && l <= 100.0 => Some(23.58 * libm::pow(l, -0.592)),
         _ => None,
     }
 }

@@ -44,7 +44,7 @@ fn divide(
 ) -> Result<(), ModelError> {
     let [a, b] = ends.map(|end| [nodes[end].x, nodes[end].z]);
     let chord = [b[0] - a[0], b[1] - a[1]];
-    let length = chord[0].hypot(chord[1]);
+    let length = libm::hypot(chord[0], chord[1]);
     if !(length > 0.0 && length.is_finite()) {
         return Err(wrong(member, &format!("its length is {length} m; it must be positive")));
     }

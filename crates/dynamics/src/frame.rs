@@ -45,7 +45,7 @@ impl FrameElement {
 
     /// Length l, m.
     pub fn length(&self) -> f64 {
-        self.span[0].hypot(self.span[1])
+        libm::hypot(self.span[0], self.span[1])
     }
 
     /// (c, s).

@@ -74,9 +74,9 @@ impl<'a> Passage<'a> {
             Response { speed, step: march.h, steps: march.steps, extremes: march.extremes() }
         };
         // On the shared grid a step of a slower train would be too long.
-        let finer = (self.load.grid / (speed * self.bridge.longest_step())).log2().ceil();
+        let finer = libm::log2(self.load.grid / (speed * self.bridge.longest_step())).ceil();
         if finer > 0.0 {
-            let grid = self.load.grid * 0.5_f64.powf(finer);
+            let grid = self.load.grid * 0.5_f64.powi(finer as i32);
             return run(&TrainLoad::new(self.bridge, &self.train, self.heading, grid));
         }
         run(&self.load)

@@ -40,10 +40,10 @@ impl Oscillator {
         let delta = delta2.abs().sqrt();
         let (cos, sin) = match delta * h {
             angle if angle < 1e-8 => (1.0, h),
-            angle if delta2 > 0.0 => (angle.cos(), angle.sin() / delta),
-            angle => (angle.cosh(), angle.sinh() / delta),
+            angle if delta2 > 0.0 => (libm::cos(angle), libm::sin(angle) / delta),
+            angle => (libm::cosh(angle), libm::sinh(angle) / delta),
         };
-        let decay = (-sigma * h).exp();
+        let decay = libm::exp(-sigma * h);
         let e = [[cos + sigma * sin, sin], [-w2 * sin, cos - sigma * sin]].map(|row| row.map(|e| decay * e));
         // Free part of minus the particular solution's start, for p₀ = 1 and p₁ = 1.
         let (r, offset) = (1.0 / h, c / (w2 * w2));

@@ -28,7 +28,7 @@ impl Density {
             Self::Sncf { a, n0 } => a / (1.0 + n / n0).powi(3) / TAU,
             Self::PowerLaws { pieces } => {
                 let piece = pieces.iter().find(|(limit, ..)| limit.is_none_or(|limit| n < limit));
-                piece.map_or(0.0, |(_, a, k)| MM2 * a / n.powf(*k) / TAU)
+                piece.map_or(0.0, |(_, a, k)| MM2 * a / libm::pow(n, *k) / TAU)
             }
         }
     }
@@ -38,10 +38,10 @@ impl Density {
     /// σ² = ∫ S dΩ = ∫ S Ω d(ln Ω), by the trapezoidal rule in ln Ω.
     #[must_use]
     pub fn sigma(&self, shortest: f64, longest: f64) -> f64 {
-        let (low, high) = ((TAU / longest).ln(), (TAU / shortest).ln());
+        let (low, high) = (libm::log(TAU / longest), libm::log(TAU / shortest));
         let step = (high - low) / INTERVALS as f64;
         let integrand = |i: usize| {
-            let omega = (low + i as f64 * step).exp();
+            let omega = libm::exp(low + i as f64 * step);
             self.value(omega) * omega
         };
         let inner: f64 = (1..INTERVALS).map(integrand).sum();

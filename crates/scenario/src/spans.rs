@@ -129,7 +129,7 @@ fn continuous_frequency(spans: &[Span]) -> Option<f64> {
 fn below_the_first(spans: &[Span], omega: f64) -> bool {
     let mut pivot = 0.0; // over the bearing where the span begins
     for span in spans {
-        let lambda = span.length * (omega * omega * span.mass / span.bending_stiffness).powf(0.25);
+        let lambda = span.length * (omega * omega * span.mass / span.bending_stiffness).sqrt().sqrt();
         let scale = span.bending_stiffness / span.length;
         let [near, far] = ends(lambda).map(|factor| scale * factor);
         let begin = pivot + near;
@@ -147,7 +147,7 @@ fn ends(lambda: f64) -> [f64; 2] {
         let fourth = lambda.powi(4);
         return [4.0 - fourth / 105.0, 2.0 + fourth / 140.0];
     }
-    let (sin, cos, sinh, cosh) = (lambda.sin(), lambda.cos(), lambda.sinh(), lambda.cosh());
+    let ((sin, cos), sinh, cosh) = (libm::sincos(lambda), libm::sinh(lambda), libm::cosh(lambda));
     let below = 1.0 - cosh * cos;
     [lambda * (cosh * sin - sinh * cos) / below, lambda * (sinh - sin) / below]
 }

@@ -62,12 +62,12 @@ impl Excited {
         };
         let flexibility: f64 = stiffness.iter().map(|spring| 1.0 / spring.stiffness).sum();
         let rail = &spec.track.rail;
-        let b = (1.0 / (4.0 * rail.bending_stiffness * flexibility * spec.track.spacing)).powf(0.25);
+        let b = (1.0 / (4.0 * rail.bending_stiffness * flexibility * spec.track.spacing)).sqrt().sqrt();
         let moving = 1.5 * rail.mass / b;
         let n = f64::from(spec.contact.wheels_per_axle);
         let of_axle = |[load, mass]: [f64; 2]| {
             let g = spec.contact.constant();
-            let contact = 1.5 * (n * n * load).cbrt() / g;
+            let contact = 1.5 * libm::cbrt(n * n * load) / g;
             // A force alone has no contact.
             if mass > 0.0 { (contact * (1.0 / mass + 1.0 / moving)).sqrt() / TAU } else { 0.0 }
         };
@@ -96,8 +96,8 @@ impl Excited {
 
 /// The next of 5, 2, 1 in its decade, downwards.
 fn round_down(x: f64) -> f64 {
-    let decade = x.log10().floor();
-    let lead = x / 10.0_f64.powf(decade);
+    let decade = libm::log10(x).floor();
+    let lead = x / libm::pow(10.0, decade);
     let lead = [5.0, 2.0].into_iter().find(|round| lead >= round * (1.0 - 1e-9)).unwrap_or(1.0);
     // Through a decimal text, so that 1 ms is the number that a user would write.
     format!("{lead}e{decade}").parse().unwrap_or(x)

@@ -30,7 +30,7 @@ impl Law {
     pub fn new(contact: &Contact, load: f64) -> Self {
         let g = contact.constant();
         let contacts = f64::from(contact.wheels_per_axle);
-        let root = (load / contacts).cbrt();
+        let root = libm::cbrt(load / contacts);
         let (static_approach, static_stiffness) = (g * root * root, contacts * 1.5 * root / g);
         Self {
             linear: contact.law == ContactLaw::Linear,

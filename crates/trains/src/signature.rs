@@ -47,10 +47,10 @@ impl<'a> Signature<'a> {
     pub fn amplitude(&self, length: f64) -> f64 {
         let (mut re, mut im, mut largest, mut before) = (0.0_f64, 0.0_f64, 0.0_f64, 0.0);
         for axle in &self.train.axles {
-            let decay = (-TAU * self.damping * (axle.x - before) / length).exp();
-            let (sin, cos) = (TAU * axle.x / length).sin_cos();
+            let decay = libm::exp(-TAU * self.damping * (axle.x - before) / length);
+            let (sin, cos) = libm::sincos(TAU * axle.x / length);
             (re, im) = (re * decay + axle.load * cos, im * decay + axle.load * sin);
-            largest = largest.max(re.hypot(im));
+            largest = largest.max(libm::hypot(re, im));
             before = axle.x;
         }
         largest
@@ -92,8 +92,8 @@ impl<'a> Signature<'a> {
 fn influence(k: f64, damping: f64) -> f64 {
     const NEAR: f64 = 0.02;
     let formula = |k: f64| {
-        let decay = (-damping * PI / k).exp();
-        (k / (1.0 - k * k)).abs() * (1.0 + decay * decay + 2.0 * decay * (PI / k).cos()).max(0.0).sqrt()
+        let decay = libm::exp(-damping * PI / k);
+        (k / (1.0 - k * k)).abs() * (1.0 + decay * decay + 2.0 * decay * libm::cos(PI / k)).max(0.0).sqrt()
     };
     if (k - 1.0).abs() >= NEAR {
         return formula(k);

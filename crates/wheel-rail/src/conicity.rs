@@ -33,13 +33,13 @@ pub fn of_difference(difference: impl Fn(f64) -> f64, radius: f64, amplitude: f6
     for i in (0..POINTS).rev() {
         let tau = (i as f64 + 0.5) * step;
         // Δr dy/dτ at the middle of the step
-        let density = difference(amplitude * tau.sin()) * amplitude * tau.cos();
+        let density = difference(amplitude * libm::sin(tau)) * amplitude * libm::cos(tau);
         // Δr dy/dτ is odd about the turning point.
         let middle = work + 0.5 * step * (0.75 * density + 0.25 * before.unwrap_or(-density));
         work += step * density;
         before = Some(density);
         let slope = (2.0 * middle / (CONTACT_DISTANCE * radius)).sqrt();
-        wave += step * amplitude * tau.cos() / slope;
+        wave += step * amplitude * libm::cos(tau) / slope;
     }
     let length = 4.0 * wave;
     (TAU / length).powi(2) * CONTACT_DISTANCE * radius / 2.0

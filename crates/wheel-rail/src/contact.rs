@@ -185,7 +185,7 @@ fn elastic(settings: &Settings, radius: f64, slope: f64, across: f64) -> Elastic
     let own = || Coefficients::new(a / b, settings.material.poisson);
     let Coefficients { c11, c22, c23 } = settings.kalker.unwrap_or_else(own);
     let area = a * b;
-    [settings.hertz_constant.unwrap_or(hertz.constant), area * c11, area * c22, area.powf(1.5) * c23, a, b]
+    [settings.hertz_constant.unwrap_or(hertz.constant), area * c11, area * c22, area * area.sqrt() * c23, a, b]
 }
 
 #[cfg(test)]

@@ -52,9 +52,9 @@ impl Hertz {
         let k = axes_ratio(larger / smaller);
         let of = integrals(k);
         let (sum, modulus) = (0.5 * (along + across), 0.5 * material.young / (1.0 - material.poisson.powi(2)));
-        let unit = (1.5 * of.e / (PI * k * k)).cbrt();
-        let major = unit / (modulus * sum).cbrt();
-        let constant = 1.5 * of.k / (PI * unit) * (sum / (modulus * modulus)).cbrt();
+        let unit = libm::cbrt(1.5 * of.e / (PI * k * k));
+        let major = unit / libm::cbrt(modulus * sum);
+        let constant = 1.5 * of.k / (PI * unit) * libm::cbrt(sum / (modulus * modulus));
         let (along, across) = if along > across { (k * major, major) } else { (major, k * major) };
         Self { constant, along, across }
     }
@@ -63,23 +63,23 @@ impl Hertz {
 /// k = minor/major of the ellipse for the ratio of the larger to the smaller curvature, which is at least 1.
 fn axes_ratio(curvatures: f64) -> f64 {
     // The equation is nearly a power law: ln(ratio) against ln(k) is nearly straight, so that the secant ends in a few steps.
-    let wanted = curvatures.ln();
+    let wanted = libm::log(curvatures);
     let (mut x, mut old) = (-0.636 * wanted, -0.7 * wanted - 1e-3);
-    let mut miss_old = curvature_ratio(old).ln() - wanted;
+    let mut miss_old = libm::log(curvature_ratio(old)) - wanted;
     for _ in 0..40 {
-        let miss = curvature_ratio(x).ln() - wanted;
+        let miss = libm::log(curvature_ratio(x)) - wanted;
         if miss == miss_old || miss.abs() < 1e-14 {
             break;
         }
         let next = (x - miss * (x - old) / (miss - miss_old)).min(0.0);
         (old, miss_old, x) = (x, miss, next);
     }
-    x.exp()
+    libm::exp(x)
 }
 
 /// (E/k² − K)/(K − E) for k = eˣ; without differences of nearly equal numbers.
 fn curvature_ratio(x: f64) -> f64 {
-    let k = x.exp();
+    let k = libm::exp(x);
     let Integrals { deficit, .. } = integrals(k);
     if deficit == 0.0 {
         return 1.0;

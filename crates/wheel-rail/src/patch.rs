@@ -150,10 +150,13 @@ pub(crate) fn patch(
         Creep::Shen | Creep::Fastsim => (0.0, [0.0, 0.0]),
     };
     let simplified = |normal: f64, creepages: [f64; 3]| {
-        let root = normal.cbrt();
+        let root = libm::cbrt(normal);
         let [a1, b1] = column.axes;
-        let kalker =
-            Coefficients { c11: c11[0] / (a1 * b1), c22: c22[0] / (a1 * b1), c23: c23[0] / (a1 * b1).powf(1.5) };
+        let kalker = Coefficients {
+            c11: c11[0] / (a1 * b1),
+            c22: c22[0] / (a1 * b1),
+            c23: c23[0] / (a1 * b1 * (a1 * b1).sqrt()),
+        };
         let patch = Patch { along: a1 * root, across: b1 * root, normal, friction: law.friction, shear, kalker };
         fastsim(&patch, creepages, STRIPS)
     };

@@ -44,7 +44,7 @@ impl Butterworth {
             let (what, needed) = ("a Butterworth filter", 2.0 * cut_off);
             return Err(SignalError::TooCoarse { what, frequency: cut_off, needed, found: rate });
         }
-        let c = (PI * cut_off / rate).tan();
+        let c = libm::tan(PI * cut_off / rate);
         let mut sections = Vec::with_capacity(order.div_ceil(2));
         if order % 2 == 1 {
             let b = c / (1.0 + c);
@@ -52,7 +52,7 @@ impl Butterworth {
         }
         // The least resonant first, so that values inside the row stay small.
         for k in (1..=order / 2).rev() {
-            let q = 2.0 * (PI * (2 * k - 1) as f64 / (2 * order) as f64).sin();
+            let q = 2.0 * libm::sin(PI * (2 * k - 1) as f64 / (2 * order) as f64);
             let d = 1.0 + q * c + c * c;
             let b = c * c / d;
             sections.push(Section { b: [b, 2.0 * b, b], a: [2.0 * (c * c - 1.0) / d, (1.0 - q * c + c * c) / d] });
@@ -62,7 +62,7 @@ impl Butterworth {
 
     /// The cut-off, Hz, of one pass that gives −3 dB at `cut_off` in two.
     pub fn compensated_cut_off(order: usize, cut_off: f64) -> f64 {
-        cut_off / (SQRT_2 - 1.0).powf(1.0 / (2 * order) as f64)
+        cut_off / libm::pow(SQRT_2 - 1.0, 1.0 / (2 * order) as f64)
     }
 
     /// |H| at `frequency`, Hz, of what [`apply`](Self::apply) does: squared for two passes.

@@ -50,7 +50,7 @@ pub fn lines(signal: &[f64], rate: f64) -> Result<Vec<Line>, SignalError> {
 
 /// Amplitude of line `i` of `n` values: the sum by Horner's rule on the unit circle, z = e^{−iθ}.
 fn amplitude(signal: &[f64], i: usize, n: usize) -> f64 {
-    let (sin, cos) = (2.0 * PI * i as f64 / n as f64).sin_cos();
+    let (sin, cos) = libm::sincos(2.0 * PI * i as f64 / n as f64);
     let (mut re, mut im) = (0.0, 0.0);
     for a in signal.iter().rev() {
         (re, im) = (re * cos + im * sin + a, im * cos - re * sin);
@@ -81,7 +81,7 @@ fn discrete(lines: &[Line], [low, first, high, last]: [f64; 4]) -> f64 {
         // W_i¹⁰ without the tenth root between.
         3.57_f64.powi(10) * line.amplitude.powi(3) * weight / f
     };
-    lines.iter().map(term).sum::<f64>().powf(0.1)
+    libm::pow(lines.iter().map(term).sum::<f64>(), 0.1)
 }
 
 /// The continuous index W_z of these lines, amplitudes in m/s².
@@ -92,7 +92,7 @@ pub fn sperling_continuous(lines: &[Line]) -> f64 {
         let lower = (1.0 - 0.277 * f2).powi(2) + (1.563 * f - 0.0368 * f2 * f).powi(2);
         0.5 * (100.0 * line.amplitude).powi(2) * 0.588_f64.powi(2) * upper / lower
     };
-    lines.iter().map(term).sum::<f64>().powf(1.0 / 6.67)
+    libm::pow(lines.iter().map(term).sum::<f64>(), 1.0 / 6.67)
 }
 
 #[cfg(test)]

@@ -137,6 +137,6 @@ pub(crate) fn free_vibration(bridge: &BridgeSpec, first: Option<f64>) -> f64 {
         Damping::None => 0.0,
         Damping::Rayleigh { ratio, .. } | Damping::Modal { ratio, .. } => ratio,
     };
-    let periods = (2.0_f64.ln() / (std::f64::consts::TAU * ratio)).clamp(PERIODS[0], PERIODS[1]);
+    let periods = (std::f64::consts::LN_2 / (std::f64::consts::TAU * ratio)).clamp(PERIODS[0], PERIODS[1]);
     first.map_or(1.0, |first| (periods / first).min(LONGEST))
 }

@@ -29,7 +29,7 @@ pub(super) fn curve(curve: &Curve, report: &mut Report) -> Option<Vec<[f64; 3]>>
         report.problem(format!("{base}.end"), rule, found);
         return None;
     }
-    let full = [1.0 / curve.radius, curve.radius.signum() * (curve.cant / BASE_OF_CANT).asin()];
+    let full = [1.0 / curve.radius, curve.radius.signum() * libm::asin(curve.cant / BASE_OF_CANT)];
     let mut points = vec![[curve.begin, 0.0, 0.0], [curve.begin + curve.transition, full[0], full[1]]];
     if let Some(end) = curve.end {
         let back = end - curve.transition;

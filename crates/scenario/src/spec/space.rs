@@ -238,7 +238,7 @@ impl WindSpec {
     #[must_use]
     pub fn forces(&self, t: f64, x: f64, v: f64, height: f64) -> [f64; 3] {
         let across = self.speed.at(t, x);
-        let (side, angle) = (across.signum(), across.abs().atan2(v));
+        let (side, angle) = (across.signum(), libm::atan2(across.abs(), v));
         let pressure = 0.5 * self.density * (v * v + across * across) * self.area;
         let [drag, lift, roll] = self.coefficient(angle);
         let force = side * pressure * drag;

@@ -192,8 +192,8 @@ impl Contact {
     pub fn constant(&self) -> f64 {
         let r = self.wheel_radius;
         self.hertz_constant.unwrap_or_else(|| match self.tread {
-            Tread::Worn => 3.86e-8 * r.powf(-0.115),
-            Tread::Conical => 4.57e-8 * r.powf(-0.149),
+            Tread::Worn => 3.86e-8 * libm::pow(r, -0.115),
+            Tread::Conical => 4.57e-8 * libm::pow(r, -0.149),
         })
     }
 }

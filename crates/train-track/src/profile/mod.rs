@@ -1,6 +1,7 @@
 //! Track irregularity r(x), m, positive down, at any abscissa: waves, a random sample ([`random`]) or measured values
 //! (`samples`), grown from nothing where it begins.
 
+mod fourier;
 mod hermite;
 pub mod rails;
 pub mod random;
@@ -74,7 +75,7 @@ impl Irregularity {
 
 /// One wave at the distance `x` from its origin.
 fn sine(wave: &Wave, x: f64) -> f64 {
-    wave.amplitude * (TAU * x / wave.wavelength + wave.phase).sin()
+    wave.amplitude * libm::sin(TAU * x / wave.wavelength + wave.phase)
 }
 
 /// How far a ramp has grown at x: 0 before it, 1 behind it.
@@ -89,7 +90,7 @@ fn grown(ramp: &Ramp, x: f64) -> f64 {
     let s = past / ramp.length;
     match ramp.shape {
         RampShape::Quintic => s * s * s * (10.0 - 15.0 * s + 6.0 * s * s),
-        RampShape::Cosine => 0.5 * (1.0 - (PI * s).cos()),
+        RampShape::Cosine => 0.5 * (1.0 - libm::cos(PI * s)),
     }
 }
 

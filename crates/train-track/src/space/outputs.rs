@@ -84,7 +84,7 @@ pub fn write(system: &SpaceSystem, state: &SpaceState, means: &[f64], out: &mut 
             let q = -(patches[0].down + patches[1].down);
             let most = if patches[1].normal > patches[0].normal { patches[1] } else { patches[0] };
             shift += SIDES[side] * y;
-            out.copy_from_slice(&[y, q, if q > 0.0 { y / q } else { 0.0 }, d, (-most.slope).atan()]);
+            out.copy_from_slice(&[y, q, if q > 0.0 { y / q } else { 0.0 }, d, libm::atan(-most.slope)]);
         }
         let at = axle / AXLES * DOFS + FIRST_WHEELSET + axle % AXLES * OF_BODY;
         whole.copy_from_slice(&[state.cars.u[at], state.cars.u[at + 4], shift.abs()]);

@@ -74,7 +74,7 @@ pub fn rest(
             let cos = 1.0 / (1.0 + tread.slope * tread.slope).sqrt();
             let arm = system.ports[axle / AXLES].lever.rail - tread.across;
             plane.wheels.raised[axle] = tread.distance - roll[axle] * arm;
-            laws.push(Law::of_wheels(tread.hertz * cos.powf(-5.0 / 3.0), plane.contacts.laws()[axle].load()));
+            laws.push(Law::of_wheels(tread.hertz * libm::pow(cos, -5.0 / 3.0), plane.contacts.laws()[axle].load()));
         }
         plane.contacts.replace(laws);
         equilibrium(plane, 0.0, &held[..2 * supports], plane_state)?;

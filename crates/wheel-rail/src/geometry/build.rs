@@ -151,7 +151,7 @@ impl Sums<'_> {
             }
             // Trapezoidal rule.
             let end = if i == 0 || i + 1 == count { 0.5 } else { 1.0 };
-            let p = end * (-(gap - closest) / self.softness).exp();
+            let p = end * libm::exp(-(gap - closest) / self.softness);
             sum += p;
             node.slope += p * self.slopes[over + i];
             node.across += p * (self.u)(first + i as i64 + shift);
@@ -159,7 +159,7 @@ impl Sums<'_> {
             node.curvature += p * (self.curvatures[over + i] - self.wheel_curvatures[at + i]);
         }
         Some(Node {
-            distance: 1e-3 * (closest - self.softness * (sum * self.spacing).ln()),
+            distance: 1e-3 * (closest - self.softness * libm::log(sum * self.spacing)),
             slope: node.slope / sum,
             across: 1e-3 * node.across / sum,
             radius_change: 1e-3 * node.radius_change / sum,

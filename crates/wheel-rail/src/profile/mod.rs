@@ -21,7 +21,7 @@ impl Point {
     /// Curvature of the curve, positive where z grows on both sides, 1/mm.
     #[must_use]
     pub fn curvature(&self) -> f64 {
-        self.bend / (1.0 + self.slope * self.slope).powf(1.5)
+        self.bend / libm::pow(1.0 + self.slope * self.slope, 1.5)
     }
 }
 

@@ -65,8 +65,8 @@ impl Placed {
     /// # Errors
     /// A profile that does not reach the gauge point, or that is too steep to be inclined.
     pub fn new(shape: Shape, inclination: f64, gauge: f64) -> Result<Self, String> {
-        let angle = inclination.atan();
-        let mut placed = Self { shape, cos: angle.cos(), sin: angle.sin(), shift: [0.0; 2] };
+        let angle = libm::atan(inclination);
+        let mut placed = Self { shape, cos: libm::cos(angle), sin: libm::sin(angle), shift: [0.0; 2] };
         let [from, to] = placed.shape.extent();
         let turned = |s: f64| placed.shape.at(s).z * placed.cos - s * placed.sin;
         // The highest point: a fine scan, then a parabola is not needed, the head is flat there.
@@ -125,7 +125,7 @@ impl Placed {
         }
         let point = self.shape.at(s);
         let slope = (point.slope * self.cos - self.sin) / (self.cos + point.slope * self.sin);
-        let bend = point.curvature() * (1.0 + slope * slope).powf(1.5);
+        let bend = point.curvature() * libm::pow(1.0 + slope * slope, 1.5);
         Some(Point { z: point.z * self.cos - s * self.sin + self.shift[1], slope, bend })
     }
 }
