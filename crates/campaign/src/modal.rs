@@ -122,14 +122,11 @@ impl<'a> Modal<'a> {
         if !self.filters.is_empty() {
             let histories = passage.histories(speed);
             for filter in &self.filters {
-                let failed = std::cell::RefCell::new(None);
-                let filtered = histories.filtered(|h, signal| match filter.apply(signal, 1.0 / h, speed * h) {
-                    Ok(values) => signal.copy_from_slice(&values),
-                    Err(error) => drop(failed.borrow_mut().get_or_insert(error)),
-                });
-                if let Some(error) = failed.into_inner() {
-                    return Record::failed(&run.id, format!("{}: {error}", filter.label()), 0.0);
-                }
+                let filtered = histories.filtered(|h, signals| filter.apply_each(signals, 1.0 / h, speed * h));
+                let filtered = match filtered {
+                    Ok(filtered) => filtered,
+                    Err(error) => return Record::failed(&run.id, format!("{}: {error}", filter.label()), 0.0),
+                };
                 let label = filter.label();
                 for (output, extreme) in outputs[positions..].iter().zip(&filtered.accelerations()) {
                     rows.add(output, &label, extreme, None);

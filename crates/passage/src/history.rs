@@ -1,9 +1,11 @@
 //! Histories of a passage: few, of modes, from which those of all places follow. A linear filter that is applied to them is
 //! applied to every place.
 
+use pulp::{Simd, WithSimd};
+
 use crate::extreme::{Extreme, WIDE, Watch};
 use crate::load::TrainLoad;
-use crate::march::{Keep, March, combine};
+use crate::march::{Keep, March, add};
 use crate::modal::ModalBridge;
 
 /// Modal motions of a passage at steps 0 (at rest), 1, …
@@ -62,12 +64,14 @@ impl<'a> Histories<'a> {
         self.positions.first().map_or(0, Vec::len)
     }
 
-    /// The same with `filter(h, history)` applied to every modal acceleration, and to nothing else.
-    #[must_use]
-    pub fn filtered(&self, filter: impl Fn(f64, &mut [f64])) -> Self {
+    /// The same with `filter(h, histories)` applied to all modal accelerations, and to nothing else.
+    ///
+    /// # Errors
+    /// Those of the filter.
+    pub fn filtered<E>(&self, filter: impl FnOnce(f64, &mut [Vec<f64>]) -> Result<(), E>) -> Result<Self, E> {
         let mut filtered = self.clone();
-        filtered.accelerations.iter_mut().for_each(|history| filter(self.h, history));
-        filtered
+        filter(self.h, &mut filtered.accelerations)?;
+        Ok(filtered)
     }
 
     /// History of an output of the bridge.
@@ -96,25 +100,40 @@ impl<'a> Histories<'a> {
     pub fn accelerations(&self) -> Vec<Extreme> {
         let modes = self.bridge.modes().len();
         let count = self.bridge.outputs().len() - self.bridge.positions();
-        let mut found = Vec::with_capacity(count);
-        let mut now = vec![0.0; modes];
         let groups = self.bridge.acceleration_rows().chunks_exact(modes.max(1));
         let mut watches = vec![Watch::default(); groups.len()];
-        for n in 0..self.samples() {
-            now.iter_mut().zip(&self.accelerations).for_each(|(now, history)| *now = history[n]);
-            for (watch, rows) in watches.iter_mut().zip(groups.clone()) {
-                let mut y = [0.0; WIDE];
-                combine(rows, &now, &mut y);
-                watch.look(&y, n, self.h);
-            }
-        }
-        found.extend(watches.iter().flat_map(|watch| watch.finish(self.samples(), self.h)));
-        found.truncate(count);
-        found
+        pulp::Arch::new().dispatch(Accelerations { histories: self, watches: &mut watches });
+        let found = watches.iter().flat_map(|watch| watch.finish(self.samples(), self.h));
+        found.take(count).collect()
     }
 
     fn rest(&self, n: usize, group: usize) -> [f64; WIDE] {
         let (row, groups) = (n * self.stride, self.load.rest.len() / self.load.rows.max(1));
         if row < self.load.rows { self.load.rest[row * groups + group].map(f64::from) } else { [0.0; WIDE] }
+    }
+}
+
+/// The accelerations of all places, watched under an instruction set; all of them give the same bits.
+struct Accelerations<'a, 'b> {
+    histories: &'a Histories<'b>,
+    watches: &'a mut [Watch],
+}
+
+impl WithSimd for Accelerations<'_, '_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) {
+        let Histories { bridge, accelerations, h, .. } = self.histories;
+        let groups = bridge.acceleration_rows().chunks_exact(accelerations.len().max(1));
+        let mut now = vec![0.0; accelerations.len()];
+        for n in 0..self.histories.samples() {
+            now.iter_mut().zip(accelerations).for_each(|(now, history)| *now = history[n]);
+            for (watch, rows) in self.watches.iter_mut().zip(groups.clone()) {
+                let mut y = [0.0; WIDE];
+                add(simd, rows, &now, &mut y);
+                watch.look_with(simd, &y, n, *h);
+            }
+        }
     }
 }

@@ -175,15 +175,10 @@ impl WithSimd for Job<'_, '_> {
 
 /// y ← y + Σ_j row_j x_j, added in the order of j.
 #[inline(always)]
-fn add<S: Simd>(simd: S, rows: &[[f64; WIDE]], x: &[f64], y: &mut [f64; WIDE]) {
+pub fn add<S: Simd>(simd: S, rows: &[[f64; WIDE]], x: &[f64], y: &mut [f64; WIDE]) {
     for (row, x) in rows.iter().zip(x) {
         let x = simd.splat_f64s(*x);
         let lanes = S::as_mut_simd_f64s(y).0.iter_mut().zip(S::as_simd_f64s(row).0);
         lanes.for_each(|(y, row)| *y = simd.add_f64s(*y, simd.mul_f64s(*row, x)));
     }
-}
-
-/// The same without a choice of instructions.
-pub fn combine(rows: &[[f64; WIDE]], x: &[f64], y: &mut [f64; WIDE]) {
-    add(pulp::Scalar::new(), rows, x, y);
 }

@@ -16,6 +16,9 @@ use std::f64::consts::{PI, SQRT_2};
 use super::{Cascade, Phase, Section};
 use crate::error::{SignalError, finite};
 
+/// Records that are filtered side by side.
+const ABREAST: usize = 4;
+
 /// A low-pass for records of a given rate.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Butterworth {
@@ -91,6 +94,31 @@ impl Butterworth {
     /// A value is not finite, or the record is shorter than [`least_length`](Self::least_length).
     pub fn apply(&self, signal: &mut [f64]) -> Result<(), SignalError> {
         finite(signal)?;
+        self.run(signal.as_chunks_mut::<1>().0)
+    }
+
+    /// Over records, each as by [`apply`](Self::apply) to the last bit. Those of one length go side by side, which takes a
+    /// fraction of the time.
+    ///
+    /// # Errors
+    /// As [`apply`](Self::apply).
+    pub fn apply_each(&self, records: &mut [Vec<f64>]) -> Result<(), SignalError> {
+        for alike in records.chunk_by_mut(|a, b| a.len() == b.len()) {
+            for some in alike.chunks_mut(ABREAST) {
+                some.iter().try_for_each(|record| finite(record))?;
+                let row = |i: usize| std::array::from_fn(|k| some.get(k).map_or(0.0, |record| record[i]));
+                let mut rows: Vec<[f64; ABREAST]> = (0..some[0].len()).map(row).collect();
+                self.run(&mut rows)?;
+                for (k, record) in some.iter_mut().enumerate() {
+                    record.iter_mut().zip(&rows).for_each(|(value, row)| *value = row[k]);
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Over records side by side.
+    fn run<const N: usize>(&self, signal: &mut [[f64; N]]) -> Result<(), SignalError> {
         if self.phase == Phase::Causal {
             self.cascade.from_rest(signal);
             return Ok(());
@@ -100,13 +128,38 @@ impl Butterworth {
             let (what, needed, found) = ("a Butterworth filter of two passes", self.least_length() as f64, n as f64);
             return Err(SignalError::TooShort { what, needed, found, unit: "values" });
         }
+        let mirrored = |end: usize, i: usize| std::array::from_fn(|k| 2.0 * signal[end][k] - signal[i][k]);
         let mut extended = Vec::with_capacity(n + 2 * edge);
-        extended.extend((1..=edge).rev().map(|i| 2.0 * signal[0] - signal[i]));
+        extended.extend((1..=edge).rev().map(|i| mirrored(0, i)));
         extended.extend_from_slice(signal);
-        extended.extend((1..=edge).map(|i| 2.0 * signal[n - 1] - signal[n - 1 - i]));
+        extended.extend((1..=edge).map(|i| mirrored(n - 1, n - 1 - i)));
         self.cascade.run_from_steady(extended.iter_mut());
         self.cascade.run_from_steady(extended.iter_mut().rev());
         signal.copy_from_slice(&extended[edge..edge + n]);
         Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn records_side_by_side_are_filtered_as_each_alone() {
+        let record = |k: usize| (0..200).map(|i| (0.07 * (k + 1) as f64 * i as f64).sin() + k as f64).collect();
+        for phase in [Phase::Causal, Phase::Zero] {
+            let filter = Butterworth::new(4, 30.0, 1000.0, phase).expect("a filter");
+            for count in [1, 4, 6] {
+                let mut alone: Vec<Vec<f64>> = (0..count).map(record).collect();
+                let mut abreast = alone.clone();
+                alone.iter_mut().for_each(|record| filter.apply(record).expect("long enough"));
+                filter.apply_each(&mut abreast).expect("long enough");
+                assert_eq!(alone, abreast, "{phase:?}");
+            }
+        }
+        let filter = Butterworth::new(4, 30.0, 1000.0, Phase::Zero).expect("a filter");
+        assert!(filter.apply_each(&mut [vec![1.0; 200], vec![f64::NAN; 200]]).is_err());
+        assert!(filter.apply_each(&mut [vec![1.0; 200], vec![1.0; 3]]).is_err());
+        assert!(filter.apply_each(&mut [vec![], vec![1.0; 200]]).is_err());
     }
 }

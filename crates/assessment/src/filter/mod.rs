@@ -94,4 +94,18 @@ impl Filter {
             Self::Weighting { curve } => curve.apply(signal, rate),
         }
     }
+
+    /// Each of several records, as [`apply`](Self::apply) filters it to the last bit; together they take less time.
+    ///
+    /// # Errors
+    /// As [`apply`](Self::apply).
+    pub fn apply_each(&self, records: &mut [Vec<f64>], rate: f64, way: f64) -> Result<(), SignalError> {
+        if let Self::Butterworth { order, cut_off_hz, phase } = *self {
+            return Butterworth::new(order, cut_off_hz, rate, phase)?.apply_each(records);
+        }
+        for record in records {
+            *record = self.apply(record, rate, way)?;
+        }
+        Ok(())
+    }
 }

@@ -68,13 +68,13 @@ impl Cascade {
         self.sections.iter().map(|section| section.gain_squared(omega)).product::<f64>().sqrt()
     }
 
-    /// Over the record in place, from rest.
-    pub fn from_rest(&self, signal: &mut [f64]) {
+    /// Over records side by side in place, from rest: `signal` holds a value of each of them, then the next of each.
+    pub fn from_rest<const N: usize>(&self, signal: &mut [[f64; N]]) {
         self.run(signal.iter_mut(), |_, _| [0.0; 2]);
     }
 
-    /// Over the values in place, from the steady state that belongs to the first value.
-    pub(crate) fn run_from_steady<'a>(&self, signal: impl Iterator<Item = &'a mut f64>) {
+    /// The same from the steady state that belongs to each first value.
+    pub(crate) fn run_from_steady<'a, const N: usize>(&self, signal: impl Iterator<Item = &'a mut [f64; N]>) {
         self.run(signal, |section, x| {
             let (g, [_, b1, b2], [a1, a2]) = (section.constant_gain(), section.b, section.a);
             let z1 = b2 - a2 * g;
@@ -82,20 +82,29 @@ impl Cascade {
         });
     }
 
-    fn run<'a>(&self, signal: impl Iterator<Item = &'a mut f64>, start: impl Fn(&Section, f64) -> [f64; 2]) {
+    fn run<'a, const N: usize>(
+        &self,
+        signal: impl Iterator<Item = &'a mut [f64; N]>,
+        start: impl Fn(&Section, f64) -> [f64; 2],
+    ) {
         let mut signal = signal.peekable();
-        let mut first = signal.peek().map_or(0.0, |x| **x);
-        let mut states: Vec<[f64; 2]> = Vec::with_capacity(self.sections.len());
+        let mut first = signal.peek().map_or([0.0; N], |x| **x);
+        let mut states: Vec<[[f64; N]; 2]> = Vec::with_capacity(self.sections.len());
         for section in &self.sections {
-            states.push(start(section, first));
-            first *= section.constant_gain();
+            let z = first.map(|x| start(section, x));
+            states.push([z.map(|z| z[0]), z.map(|z| z[1])]);
+            first = first.map(|x| x * section.constant_gain());
         }
-        for value in signal {
-            for (section, z) in self.sections.iter().zip(&mut states) {
-                let ([b0, b1, b2], [a1, a2], x) = (section.b, section.a, *value);
-                let y = b0 * x + z[0];
-                *z = [b1 * x - a1 * y + z[1], b2 * x - a2 * y];
-                *value = y;
+        for values in signal {
+            for (section, [z0, z1]) in self.sections.iter().zip(&mut states) {
+                let ([b0, b1, b2], [a1, a2], x) = (section.b, section.a, *values);
+                // Records wait for themselves only, so that several take hardly longer than one.
+                for i in 0..N {
+                    let y = b0 * x[i] + z0[i];
+                    z0[i] = b1 * x[i] - a1 * y + z1[i];
+                    z1[i] = b2 * x[i] - a2 * y;
+                    values[i] = y;
+                }
             }
         }
     }

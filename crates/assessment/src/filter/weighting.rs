@@ -97,7 +97,7 @@ impl Weighting {
         }
         let sections = self.factors().into_iter().map(|(n, d)| Section::bilinear(n, d, rate)).collect();
         let mut weighted = signal.to_vec();
-        Cascade::new(sections).from_rest(&mut weighted);
+        Cascade::new(sections).from_rest(weighted.as_chunks_mut::<1>().0);
         Ok(weighted)
     }
 }
