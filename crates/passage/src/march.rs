@@ -117,41 +117,71 @@ impl<'a> March<'a> {
         self.run(pulp::Scalar::new(), &mut quads, &mut [], 0, keep);
     }
 
-    /// Rest of a step's row; zero behind the train.
-    #[inline(always)]
-    fn rest(&self, row: usize, groups: usize, group: usize) -> [f64; WIDE] {
-        if row < self.load.rows { self.load.rest[row * groups + group].map(f64::from) } else { [0.0; WIDE] }
-    }
-
     #[inline(always)]
     fn run<S: Simd>(&self, simd: S, quads: &mut [Quad], watches: &mut [Watch], wide: usize, keep: &mut impl Keep) {
         let modes = self.bridge.modes().len();
         let (rows, fast_rows) = (self.bridge.position_rows(), self.bridge.acceleration_rows());
         let (slow, fast) = watches.split_at_mut(wide);
-        let groups = self.load.rest.len() / self.load.rows.max(1);
-        let (forces, _) = self.load.forces.as_chunks::<QUAD>();
-        let (zero, across) = ([0.0; QUAD], quads.len());
-        let mut q = vec![0.0; quads.len() * QUAD];
-        let mut a = vec![0.0; quads.len() * QUAD];
-        for n in 1..=self.steps {
-            let [before, now] = [(n - 1) * self.stride, n * self.stride];
-            for (j, quad) in quads.iter_mut().enumerate() {
-                let force = |row: usize| forces.get(row * across + j).unwrap_or(&zero);
-                quad.step(force(before), force(now));
-                keep.keep(&quad.q, &quad.a);
-                q[j * QUAD..(j + 1) * QUAD].copy_from_slice(&quad.q);
-                a[j * QUAD..(j + 1) * QUAD].copy_from_slice(&quad.a);
+        let (groups, across) = (slow.len(), quads.len());
+        let mut loads = Loads::default();
+        let mut q = vec![0.0; across * QUAD];
+        let mut a = vec![0.0; across * QUAD];
+        for begin in (0..self.steps).step_by(BLOCK) {
+            let end = (begin + BLOCK).min(self.steps);
+            loads.fetch(self, [begin, end], groups, across);
+            for n in begin + 1..=end {
+                let k = n - begin;
+                let (before, now) = loads.forces[(k - 1) * across..(k + 1) * across].split_at(across);
+                for (j, ((quad, p0), p1)) in quads.iter_mut().zip(before).zip(now).enumerate() {
+                    quad.step(p0, p1);
+                    keep.keep(&quad.q, &quad.a);
+                    q[j * QUAD..(j + 1) * QUAD].copy_from_slice(&quad.q);
+                    a[j * QUAD..(j + 1) * QUAD].copy_from_slice(&quad.a);
+                }
+                let rest = &loads.rest[(k - 1) * groups..k * groups];
+                for (group, (watch, rest)) in slow.iter_mut().zip(rest).enumerate() {
+                    let mut y = rest.map(f64::from);
+                    add(simd, &rows[group * modes..(group + 1) * modes], &q, &mut y);
+                    watch.look_with(simd, &y, n, self.h);
+                }
+                for (group, watch) in fast.iter_mut().enumerate() {
+                    let mut y = [0.0; WIDE];
+                    add(simd, &fast_rows[group * modes..(group + 1) * modes], &a, &mut y);
+                    watch.look_with(simd, &y, n, self.h);
+                }
             }
-            for (group, watch) in slow.iter_mut().enumerate() {
-                let mut y = self.rest(now, groups, group);
-                add(simd, &rows[group * modes..(group + 1) * modes], &q, &mut y);
-                watch.look_with(simd, &y, n, self.h);
-            }
-            for (group, watch) in fast.iter_mut().enumerate() {
-                let mut y = [0.0; WIDE];
-                add(simd, &fast_rows[group * modes..(group + 1) * modes], &a, &mut y);
-                watch.look_with(simd, &y, n, self.h);
-            }
+        }
+    }
+}
+
+/// Rows of the tables for some steps to come. A step skips rows, and the tables are larger than the caches: row by row, each would
+/// be waited for; fetched together, they come one behind the other.
+#[derive(Default)]
+struct Loads {
+    /// At the begin of the first step and at the end of every step.
+    forces: Vec<[f64; QUAD]>,
+    /// At the end of every step.
+    rest: Vec<[f32; WIDE]>,
+}
+
+/// Steps whose rows are fetched together.
+const BLOCK: usize = 64;
+
+impl Loads {
+    /// Fetches what the steps from `begin` to `end` need; zero behind the train.
+    fn fetch(&mut self, march: &March, [begin, end]: [usize; 2], groups: usize, across: usize) {
+        let (forces, _) = march.load.forces.as_chunks::<QUAD>();
+        self.forces.clear();
+        for n in begin..=end {
+            let row = n * march.stride;
+            self.forces.extend_from_slice(forces.get(row * across..(row + 1) * across).unwrap_or(&[]));
+            self.forces.resize((n - begin + 1) * across, [0.0; QUAD]);
+        }
+        self.rest.clear();
+        for n in begin + 1..=end {
+            let row = n * march.stride;
+            self.rest.extend_from_slice(march.load.rest.get(row * groups..(row + 1) * groups).unwrap_or(&[]));
+            self.rest.resize((n - begin) * groups, [0.0; WIDE]);
         }
     }
 }
