@@ -118,6 +118,17 @@ class Browser:
         self.send("Input.dispatchKeyEvent", type="keyDown", **common, **down)
         self.send("Input.dispatchKeyEvent", type="keyUp", **common)
 
+    def choose(self, selector, value):
+        """Another choice of a list, by the arrow keys."""
+        select = f"document.querySelector({json.dumps(selector)})"
+        self.evaluate(f"{select}.focus()")
+        self.key("Home")
+        for _ in range(self.evaluate(f"{select}.options.length")):
+            if self.evaluate(f"{select}.value") == value:
+                return
+            self.key("ArrowDown")
+        raise AssertionError(f"{selector} has no {value}")
+
     def type(self, selector, text):
         """Clicks into a field and types in place of what is there."""
         self.click(selector)

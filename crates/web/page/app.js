@@ -79,6 +79,9 @@ function typed() {
   timer = setTimeout(look, 120);
 }
 
+// The limits that judge: those that are ticked, and a file of the user's own.
+const judges = () => ({ names: limits(), own: shown.ownLimits });
+
 function command(request) {
   const words = ["ttb sweep scenario.json"];
   if (request.trains.length) words.push(`--trains ${request.trains.join(",")}`);
@@ -88,6 +91,9 @@ function command(request) {
   if (request.heading !== "forward") words.push(`--heading ${request.heading}`);
   if (request.refine) words.push("--refine");
   if (request.variants) words.push(`--variants ${request.variants}`);
+  const { names, own } = judges();
+  const usual = !own && [...names].sort().join() === [...shown.about.default_limits].sort().join();
+  if (!usual) words.push(`--limits ${[...names, ...(own ? ["limits.json"] : [])].join(",")}`);
   byId("command").textContent = `${words.join(" ")} -o out`;
 }
 
@@ -118,8 +124,8 @@ async function start(event) {
   running = controller;
   busy(true);
   const { scenario, request } = collect(axles);
-  const judges = { names: limits(), own: shown.ownLimits };
-  const asked = { scenario: JSON.stringify(scenario, null, 2), ...request, limits: judges };
+  const limits = judges();
+  const asked = { scenario: JSON.stringify(scenario, null, 2), ...request, limits };
   const begin = performance.now();
   try {
     tell("The plan is being made …");
@@ -130,10 +136,10 @@ async function start(event) {
     };
     progress(0, plan.runs.length);
     const records = await compute(engine, asked, plan, progress, controller.signal);
-    const outcome = await engine.long("outcome", { asked, records: lean(records), limits: judges }, controller.signal);
+    const outcome = await engine.long("outcome", { asked, records: lean(records), limits }, controller.signal);
     tell(`${outcome.runs} ${outcome.runs === 1 ? "run" : "runs"} in ${((performance.now() - begin) / 1000).toFixed(1)} s`);
     byId("stale").hidden = true;
-    shown.results({ engine, asked, plan, records, outcome, limits: judges, begin });
+    shown.results({ engine, asked, plan, records, outcome, limits, begin });
   } catch (error) {
     if (error.name === "AbortError") tell("Cancelled.");
     else {
@@ -158,18 +164,22 @@ function busy(is) {
 
 function put({ scenario, request }) {
   fill(scenario, request);
+  if (request?.limits) ownLimits(request.limits.own ?? null, "the file of limits that was opened");
   everything = true;
   paste();
+}
+
+function ownLimits(text, name) {
+  shown.ownLimits = text;
+  byId("own-limits").textContent = text ? `Also ${name}, which overrides entries of the same name.` : "A file of limits of your own may be dropped on the page.";
+  typed();
 }
 
 async function open(files) {
   try {
     const taken = await take(files, collect(axles));
-    if (taken.limits) {
-      shown.ownLimits = taken.limits.text;
-      byId("own-limits").textContent = `Also ${taken.limits.name}, which overrides entries of the same name.`;
-    }
     put(taken);
+    if (taken.limits) ownLimits(taken.limits.text, taken.limits.name);
     tell("");
   } catch (error) {
     tell("");
@@ -179,12 +189,12 @@ async function open(files) {
 
 function save() {
   const { scenario, request } = collect(axles);
-  shown.save("scenario.json", `${JSON.stringify({ ...scenario, $comment: { page: request } }, null, 2)}\n`, "application/json");
+  shown.save("scenario.json", `${JSON.stringify({ ...scenario, $comment: { page: { ...request, limits: judges() } } }, null, 2)}\n`, "application/json");
 }
 
 async function link() {
   const { scenario, request } = collect(axles);
-  const address = await fragment({ scenario, request });
+  const address = await fragment({ scenario, request: { ...request, limits: judges() } });
   if (address === undefined) return tell("The scenario is too large for a link: save it instead.");
   history.replaceState(null, "", address);
   try {

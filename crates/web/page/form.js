@@ -237,6 +237,8 @@ export function fill(scenario, request = {}) {
   if (request.trains?.length) show("trains", request.trains.join(", "));
   show("heading", request.heading ?? scenario.train?.heading ?? "forward");
   show("speeds", request.speeds ?? scenario.train?.speed?.km_h);
+  const judging = request.limits?.names ?? [];
+  if (judging.length) document.querySelectorAll("input[name=limits]").forEach((box) => { box.checked = judging.includes(box.value); });
   fields.get("refine").input.checked = Boolean(request.refine);
   fields.get("variants").input.checked = Boolean(request.variants);
   arrange();
