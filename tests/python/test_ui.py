@@ -1,5 +1,6 @@
 """`ttb ui`: the page on this machine alone. Who is answered, what the engine says, how it ends."""
 
+import concurrent.futures
 import contextlib
 import http.client
 import json
@@ -94,6 +95,19 @@ def test_only_who_knows_the_address_on_this_machine_is_answered(page):
         if not other.startswith("127."):
             with pytest.raises(OSError):
                 socket.create_connection((other, page.port), timeout=2).close()
+
+
+def test_connections_are_ended_so_that_no_other_waits_for_them(page):
+    # As many at once as browsers open; the page must not be kept waiting by one that is held for later.
+    def tab(_):
+        with contextlib.closing(http.client.HTTPConnection("127.0.0.1", page.port, timeout=30)) as connection:
+            connection.request("GET", page.path)
+            answer = connection.getresponse()
+            text = answer.read()
+            return answer.status, answer.getheader("Connection"), len(text) == int(answer.getheader("Content-Length"))
+
+    with concurrent.futures.ThreadPoolExecutor(12) as tabs:
+        assert set(tabs.map(tab, range(200))) == {(200, "close", True)}
 
 
 def test_the_page_asks_nothing_of_the_network(page):

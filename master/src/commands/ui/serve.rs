@@ -1,11 +1,11 @@
 //! Answers requests until a signal asks for the end.
 
-use std::io::{Cursor, Read};
+use std::io::{Read, Write};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::time::Duration;
 
 use sha2::{Digest, Sha256};
-use tiny_http::{Header, Method, Request as Http, Response, Server};
+use tiny_http::{Method, Request as Http, Server, StatusCode};
 use ttb_web::{Engine, page};
 
 use super::gate::{Asked, Gate, Request};
@@ -91,7 +91,7 @@ impl Service {
             let Ok(Some(mut request)) = server.recv_timeout(PAUSE) else { continue };
             let answer = self.answer(&mut request);
             // A tab that was closed takes no answer; that is no error.
-            let _ = request.respond(with_headers(answer, &self.policy));
+            let _ = write(&answer, &self.policy, request.into_writer());
         }
     }
 
@@ -150,9 +150,14 @@ fn text(status: u16, why: &str) -> Answer {
     Answer { status, kind: "text/plain; charset=utf-8", body: format!("{why}\n").into_bytes() }
 }
 
-fn with_headers(answer: Answer, policy: &str) -> Response<Cursor<Vec<u8>>> {
+/// Writes an answer. Every connection ends with it: the server gives each one a thread, and of several that come at the same time
+/// one may have to wait until a thread is free, which those of a browser that are kept for later would not be.
+fn write(answer: &Answer, policy: &str, mut to: impl Write) -> std::io::Result<()> {
+    let Answer { status, kind, body } = answer;
+    let (reason, length) = (StatusCode(*status).default_reason_phrase(), body.len());
+    write!(to, "HTTP/1.1 {status} {reason}\r\nContent-Length: {length}\r\nConnection: close\r\n")?;
     let headers = [
-        ("Content-Type", answer.kind),
+        ("Content-Type", *kind),
         ("Content-Security-Policy", policy),
         ("Cache-Control", "no-store"),
         ("Cross-Origin-Opener-Policy", "same-origin"),
@@ -160,11 +165,12 @@ fn with_headers(answer: Answer, policy: &str) -> Response<Cursor<Vec<u8>>> {
         ("Referrer-Policy", "no-referrer"),
         ("X-Content-Type-Options", "nosniff"),
     ];
-    let mut response = Response::from_data(answer.body).with_status_code(answer.status);
-    for header in headers.iter().filter_map(|(name, value)| Header::from_bytes(*name, *value).ok()) {
-        response.add_header(header);
+    for (name, value) in headers {
+        write!(to, "{name}: {value}\r\n")?;
     }
-    response
+    to.write_all(b"\r\n")?;
+    to.write_all(body)?;
+    to.flush()
 }
 
 #[cfg(test)]
