@@ -62,7 +62,11 @@ pub fn write_at_begin(file: &File, bytes: &[u8]) -> io::Result<usize> {
 /// # Errors
 /// It can be neither linked nor copied.
 pub fn link_folder(folder: &Path, name: &Path) -> io::Result<()> {
-    std::os::windows::fs::symlink_dir(folder, name).or_else(|_| copy_folder(folder, name))
+    // Wine says of links that it cannot make that it has made them.
+    if std::os::windows::fs::symlink_dir(folder, name).is_ok() && name.is_dir() {
+        return Ok(());
+    }
+    copy_folder(folder, name)
 }
 
 fn copy_folder(from: &Path, to: &Path) -> io::Result<()> {
