@@ -17,6 +17,7 @@ pub const FILE_MAP_READ: u32 = 4;
 pub const MEM_COMMIT: u32 = 0x1000;
 // Processes
 pub const SYNCHRONIZE: u32 = 0x0010_0000;
+pub const QUERY_LIMITED: u32 = 0x1000;
 pub const INFINITE: u32 = u32::MAX;
 pub const EVENT_ALL_ACCESS: u32 = 0x001F_0003;
 pub const STD_INPUT: u32 = -10_i32 as u32;
@@ -92,6 +93,7 @@ unsafe extern "system" {
     pub fn SetEvent(event: Handle) -> i32;
     pub fn WaitForSingleObject(handle: Handle, milliseconds: u32) -> u32;
     pub fn OpenProcess(access: u32, inherit: i32, id: u32) -> Handle;
+    pub fn QueryFullProcessImageNameW(process: Handle, flags: u32, name: *mut u16, size: *mut u32) -> i32;
     pub fn CloseHandle(handle: Handle) -> i32;
     pub fn GetStdHandle(which: u32) -> Handle;
     pub fn SetStdHandle(which: u32, handle: Handle) -> i32;

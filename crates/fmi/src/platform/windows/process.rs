@@ -48,7 +48,7 @@ impl Group {
         self.ended.is_some() || unsafe { api::WaitForSingleObject(self.child.as_raw_handle(), 0) } == 0
     }
 
-    /// What it has started and still runs.
+    /// What it has started and still runs; the process that serves its console does not count.
     pub fn started(&self) -> BTreeSet<i32> {
         let mut found = api::JobProcesses { assigned: 0, listed: 0, ids: [0; 256] };
         let (class, size) = (api::JOB_BASIC_PROCESS_ID_LIST, size_of::<api::JobProcesses>() as u32);
@@ -56,8 +56,8 @@ impl Group {
         unsafe {
             api::QueryInformationJobObject(self.job.0, class, (&raw mut found).cast(), size, std::ptr::null_mut())
         };
-        let ids = found.ids.iter().take(found.listed as usize).map(|id| *id as i32);
-        ids.filter(|id| *id != self.child.id() as i32).collect()
+        let ids = found.ids.iter().take(found.listed as usize).map(|id| *id as u32);
+        ids.filter(|id| *id != self.child.id() && !serves_a_console(*id)).map(|id| id as i32).collect()
     }
 
     /// Ends it and what it has started, and collects it; how it ended.
@@ -69,6 +69,18 @@ impl Group {
         }
         self.ended
     }
+}
+
+/// Whether a process is the one that Windows itself starts for a console, even one without a window. It ends a little later than
+/// the programs in it.
+fn serves_a_console(id: u32) -> bool {
+    // SAFETY: opens the process, or none.
+    let Ok(process) = Owned::new(unsafe { api::OpenProcess(api::QUERY_LIMITED, 0, id) }) else { return false };
+    let mut name = [0_u16; 1024];
+    let mut length = name.len() as u32;
+    // SAFETY: an open process, and room for as many letters as said.
+    let known = unsafe { api::QueryFullProcessImageNameW(process.0, 0, name.as_mut_ptr(), &raw mut length) } != 0;
+    known && String::from_utf16_lossy(&name[..length as usize]).to_lowercase().ends_with("\\conhost.exe")
 }
 
 /// Exit code of what was ended from outside.
