@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 use ttb_contract::Interface;
 use zip::result::ZipResult;
 use zip::write::SimpleFileOptions;
-use zip::{CompressionMethod, DateTime, ZipArchive, ZipWriter};
+use zip::{CompressionMethod, DateTime, System, ZipArchive, ZipWriter};
 
 /// Folder of this machine's shared library below `binaries/` (FMI 2.0, section 2.3).
 pub const PLATFORM: &str = if cfg!(target_os = "macos") {
@@ -176,6 +176,7 @@ impl<W: Write + io::Seek> Archive<'_, W> {
             .compression_method(CompressionMethod::Deflated)
             .compression_level(Some(3)) // a run packs its FMUs anew: speed before the last per cent
             .last_modified_time(self.time())
+            .system(System::Unix) // on every system, so that the same contents are the same bytes
             .unix_permissions(0o644);
         self.zip.start_file(name, options).map_err(|e| self.failed(e.into()))
     }

@@ -5,7 +5,7 @@ use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
 use zip::write::SimpleFileOptions;
-use zip::{CompressionMethod, DateTime, ZipWriter};
+use zip::{CompressionMethod, DateTime, System, ZipWriter};
 
 use crate::types::{STRUCTURE, Structure};
 use crate::write::write;
@@ -66,6 +66,7 @@ pub fn pack(
         let options = SimpleFileOptions::default()
             .compression_method(method)
             .last_modified_time(date.map_or_else(DateTime::default, |date| date.entry))
+            .system(System::Unix)
             .unix_permissions(0o644);
         zip.start_file(name, options).map_err(|e| failed(e.into()))?;
         match content {
