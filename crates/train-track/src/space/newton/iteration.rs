@@ -164,6 +164,7 @@ impl CarPorts {
         let [df, ds, dv] = &mut self.change;
         df.iter_mut().zip(&self.residual).for_each(|(c, r)| *c = -r);
         self.lu.solve(df);
+        self.secants.improve(df);
         let mut correction = 0.0;
         for i in 0..n {
             let moved = dot(&self.rate[i * n..(i + 1) * n], df);
@@ -182,6 +183,7 @@ impl CarPorts {
     pub(super) fn solve(&mut self, of: &Of) -> Result<f64, bool> {
         let mut norm = self.measure(of);
         let (mut first, mut last, mut fresh) = (None, f64::INFINITY, false);
+        self.secants.forget();
         for _ in 0..ITERATIONS {
             let correction = self.correct(of);
             if !(norm.is_finite() && correction.is_finite()) {
@@ -209,6 +211,11 @@ impl CarPorts {
                 }
             }
             let gained = norm < before;
+            if factor == 1.0 && gained {
+                self.secants.remember(&self.change[0]);
+            } else {
+                self.secants.forget();
+            }
             if !gained {
                 norm = self.measure(of);
                 if fresh {
@@ -220,6 +227,7 @@ impl CarPorts {
             fresh = norm > GAIN * before;
             if fresh {
                 self.renewed = true;
+                self.secants.forget();
                 if !self.renew(of) {
                     return Err(false);
                 }

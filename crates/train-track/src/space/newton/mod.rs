@@ -9,10 +9,12 @@
 //! c_loc belongs to positions only: a₁ c_loc F would be a velocity that grows with 1/h. Neighbouring cars meet through the
 //! rails; what one does to the other stands on the right side, and sweeps over the train are repeated until nothing moves.
 //! The first J of a step is that of the forces before it, at the new place: it is the same for all deck motions that a step is
-//! tried with. It is renewed where a correction gains less than a factor 5.
+//! tried with. What corrections have shown of it is added by Broyden's method (module `secants`), and it is renewed where one
+//! gains less than a factor 5.
 
 mod iteration;
 mod ports;
+mod secants;
 
 use ttb_contract::finite::larger;
 

@@ -9,6 +9,7 @@ use super::super::car::{AXLES, OF_BODY, WHEELSET_PORTS};
 use super::super::element::Element;
 use super::super::lu::Lu;
 use super::ARM;
+use super::secants::Secants;
 
 /// Compliance of the rails between two axles: rows and columns are the rail ports.
 pub type RailBlock = [[f64; RAIL_PORTS]; RAIL_PORTS];
@@ -52,6 +53,7 @@ pub struct CarPorts {
     /// Axles of other cars that it feels.
     pub neighbours: Vec<Neighbour>,
     pub(super) lu: Lu,
+    pub(super) secants: Secants,
     /// F(s, ṡ) and f − F.
     pub(super) answered: Vec<f64>,
     pub(super) residual: Vec<f64>,
@@ -89,6 +91,7 @@ impl CarPorts {
             places: [Place::default(); AXLES],
             neighbours: Vec::new(),
             lu: Lu::new(n),
+            secants: Secants::new(n),
             answered: zeros(),
             residual: zeros(),
             change: [zeros(), zeros(), zeros()],
