@@ -6,7 +6,8 @@
 //! c_loc = (ξ(1−ξ)l)³/(3EI),  ξ(1−ξ)l/(GJ)
 //! ```
 //!
-//! K̂⁻¹ is tabulated in bands of blocks between nodes, as far as it decays to 1e-16.
+//! K̂⁻¹ is tabulated in bands of blocks between nodes, as far as it decays to 1e-16. Farther than that from both ends of the
+//! track it is the same in every bay, and is solved for in one.
 
 use ttb_dynamics::band::{Band, BandFactor, NotPositiveDefinite};
 use ttb_dynamics::newmark::Motion;
@@ -182,6 +183,11 @@ impl Table {
         let mut blocks = vec![0.0; nodes * reach * w * w];
         let mut column = vec![0.0; n];
         for p in 0..nodes {
+            let size = reach * w * w;
+            if let Some(twin) = twin(line, p, reach) {
+                blocks.copy_within(twin * size..(twin + 1) * size, p * size);
+                continue;
+            }
             let begin = line.node(p);
             let end = if p + 2 * reach < nodes { line.node(p + 2 * reach) } else { n };
             for a in 0..w {
@@ -199,12 +205,26 @@ impl Table {
     }
 }
 
+/// The node a bay behind, if the ends of the track are felt at neither.
+fn twin(line: &Line, node: usize, reach: usize) -> Option<usize> {
+    let per_bay = line.made_of.per_bay;
+    (node >= 2 * reach + per_bay && node + 2 * reach < line.nodes()).then(|| node - per_bay)
+}
+
 /// K̂⁻¹ e_s of all rows to the deck.
 fn columns(line: &Line, factor: &BandFactor, reach: usize) -> Vec<f64> {
     let (nodes, w, n) = (line.nodes(), line.width, line.order());
     let dof = |node: usize| if node < nodes { line.node(node) } else { n };
     let (mut columns, mut column) = (Vec::new(), vec![0.0; n]);
-    for on in &line.on_bridge {
+    // Rows of one support stand together, in the same order at all of them.
+    let per_support = line.on_bridge.iter().take_while(|on| on.support == line.on_bridge[0].support).count();
+    for (s, on) in line.on_bridge.iter().enumerate() {
+        let before = s.checked_sub(per_support).map(|before| line.on_bridge[before].node);
+        if before.is_some() && before == twin(line, on.node, reach) {
+            let size = (2 * reach - 1) * w;
+            columns.extend_from_within((s - per_support) * size..(s - per_support + 1) * size);
+            continue;
+        }
         let (begin, end) = (dof(on.node.saturating_sub(reach)), dof(on.node + 2 * reach));
         column[begin..end].fill(0.0);
         on.row.of.iter().for_each(|(i, c)| column[*i] += c);
