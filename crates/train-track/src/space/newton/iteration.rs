@@ -109,7 +109,7 @@ impl CarPorts {
             }
             self.follow(of);
             self.renewed = true;
-            solved = if self.renew(of) { self.solve(of) } else { Err(false) };
+            solved = if self.renew(of) { self.solve(of, CORRECTION) } else { Err(false) };
             if solved.is_err() {
                 break;
             }
@@ -176,11 +176,12 @@ impl CarPorts {
         correction
     }
 
-    /// Newton's method from the forces in `f`, s and ṡ; how large its first correction was, m.
+    /// Newton's method from the forces in `f`, s and ṡ until a correction is no larger than `enough`, m; how large its first
+    /// one was, m.
     ///
     /// # Errors
     /// It does not end; `true` where a number is not finite.
-    pub(super) fn solve(&mut self, of: &Of) -> Result<f64, bool> {
+    pub(super) fn solve(&mut self, of: &Of, enough: f64) -> Result<f64, bool> {
         let mut norm = self.measure(of);
         let (mut first, mut last, mut fresh) = (None, f64::INFINITY, false);
         self.secants.forget();
@@ -190,7 +191,7 @@ impl CarPorts {
                 return Err(true);
             }
             first.get_or_insert(correction);
-            if correction <= CORRECTION || (fresh && correction <= FLOOR && correction >= 0.5 * last) {
+            if correction <= enough || (fresh && correction <= FLOOR && correction >= 0.5 * last) {
                 self.go(1.0);
                 return Ok(first.unwrap_or(0.0));
             }

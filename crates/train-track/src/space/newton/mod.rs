@@ -29,6 +29,8 @@ const ITERATIONS: usize = 100;
 const SWEEPS: usize = 50;
 /// A correction of the positions below this ends the iteration, m; rotations count at [`ARM`].
 const CORRECTION: f64 = 2e-14;
+/// The same while neighbours have still to be met, m.
+const ROUGHLY: f64 = 1e-11;
 /// Corrections by a new J that no longer shrink end it below this, m: rounding.
 const FLOOR: f64 = 1e-11;
 /// J is renewed where the residual shrinks by less than this.
@@ -72,11 +74,12 @@ pub fn solve(cars: &mut [CarPorts], of: &Of) -> Result<(), NotSolved> {
         for car in 0..cars.len() {
             let news = meet(cars, car);
             let (first, ports) = (sweep == 0, &mut cars[car]);
-            if !first && news <= 0.1 * CORRECTION {
+            let alone = ports.neighbours.is_empty();
+            if !first && news <= 0.1 * CORRECTION && (sweep > 1 || alone) {
                 continue;
             }
             ports.follow(of);
-            let mut solved = ports.solve(of);
+            let mut solved = ports.solve(of, if first && !alone { ROUGHLY } else { CORRECTION });
             for stages in STAGES {
                 if solved.is_err() {
                     solved = ports.solve_in_stages(of, stages);
