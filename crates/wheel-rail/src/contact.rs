@@ -119,7 +119,11 @@ impl Contact {
     #[must_use]
     pub fn forces(&self, motion: &Motion, running: Running) -> Forces {
         let mut total = [0.0; 6];
-        self.patches(motion, running).iter().for_each(|patch| patch.add_to(&mut total));
+        for region in Region::ALL {
+            if let Some(column) = self.column(region, motion[0]) {
+                patch(&column, &self.law, motion, running, None).add_to(&mut total);
+            }
+        }
         total
     }
 
