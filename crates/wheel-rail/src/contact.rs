@@ -118,23 +118,22 @@ impl Contact {
     /// Forces on the wheel.
     #[must_use]
     pub fn forces(&self, motion: &Motion, running: Running) -> Forces {
-        let mut total = [0.0; 6];
-        for region in Region::ALL {
-            if let Some(column) = self.column(region, motion[0]) {
-                patch(&column, &self.law, motion, running, None).add_to(&mut total);
-            }
-        }
-        total
+        self.total(motion, running, None)
     }
 
     /// Forces on the wheel, and their derivatives in `gradient`.
     #[must_use]
     pub fn forces_and_gradient(&self, motion: &Motion, running: Running, gradient: &mut Gradient) -> Forces {
         *gradient = [[0.0; 8]; 6];
+        self.total(motion, running, Some(gradient))
+    }
+
+    /// Forces on the wheel; the patches' derivatives are added to `gradient`.
+    fn total(&self, motion: &Motion, running: Running, mut gradient: Option<&mut Gradient>) -> Forces {
         let mut total = [0.0; 6];
         for region in Region::ALL {
             if let Some(column) = self.column(region, motion[0]) {
-                patch(&column, &self.law, motion, running, Some(gradient)).add_to(&mut total);
+                patch(&column, &self.law, motion, running, gradient.as_deref_mut()).add_to(&mut total);
             }
         }
         total
