@@ -299,6 +299,13 @@ impl Line {
         }
     }
 
+    /// Adds [`Line::deck_forces`] to `p`.
+    pub fn add_deck_forces(&self, forces: &[f64], p: &mut [f64]) {
+        for (on, force) in self.on_bridge.iter().zip(forces) {
+            on.row.of.iter().for_each(|(i, c)| p[*i] += c * force);
+        }
+    }
+
     /// The forces of the deck's motion on all rows to it.
     pub fn deck_forces(&self, deck: impl Fn(usize) -> [[f64; 2]; 2], forces: &mut [f64]) {
         for (force, on) in forces.iter_mut().zip(&self.on_bridge) {

@@ -80,7 +80,7 @@ impl SpaceSystem {
         self.prepared.track.add_deck_forces(&self.deck_forces, &mut new.track.u);
         for (k, (line, _)) in self.lines.lines.iter().enumerate() {
             new.lines[k].u.copy_from_slice(&self.history[k + 1]);
-            line.add_deck(across, &mut new.lines[k].u);
+            line.add_deck_forces(&self.line_forces[k], &mut new.lines[k].u);
         }
         for axle in 0..self.wheels.points.len() {
             let f = self.ports[axle / AXLES].on_rails(axle % AXLES);
