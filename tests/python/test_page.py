@@ -132,6 +132,16 @@ def test_a_cancelled_computation_ends_at_once_and_the_page_goes_on(clean):
     computed(clean, 60)
 
 
+def open_by_link(clean):
+    """The page anew, by the link that it makes of its scenario."""
+    clean.click("#link")
+    clean.wait("location.hash.startsWith('#s=')")
+    linked = clean.evaluate("location.href")
+    clean.send("Page.navigate", url="about:blank")
+    time.sleep(0.2)
+    clean.open(linked)
+
+
 def test_direction_and_limits_are_chosen_by_clicks(clean):
     two_spans(clean)
     clean.type("#trains", "hslm-a1")
@@ -153,12 +163,7 @@ def test_direction_and_limits_are_chosen_by_clicks(clean):
     told = clean.evaluate("document.querySelector('#command').textContent")
     assert "--heading both" in told and told.endswith("--limits tb10621-2014 -o out")
     # A link brings the choices back.
-    clean.click("#link")
-    clean.wait("location.hash.startsWith('#s=')")
-    linked = clean.evaluate("location.href")
-    clean.send("Page.navigate", url="about:blank")
-    time.sleep(0.2)
-    clean.open(linked)
+    open_by_link(clean)
     assert clean.evaluate(ticked) == ["tb10621-2014"] and clean.evaluate("document.querySelector('#heading').value") == "both"
 
 
@@ -231,12 +236,7 @@ def test_the_whole_task_can_be_done_by_keyboard(clean):
 
 def test_a_link_and_a_file_bring_the_scenario_back(clean, address):
     two_spans(clean)
-    clean.click("#link")
-    clean.wait("location.hash.startsWith('#s=')")
-    linked = clean.evaluate("location.href")
-    clean.send("Page.navigate", url="about:blank")
-    time.sleep(0.2)
-    clean.open(linked)
+    open_by_link(clean)
     shown = clean.evaluate("['count', 'length', 'first_frequency', 'mass', 'ratio', 'speeds', 'trains'].map((id) => document.getElementById(id).value)")
     assert shown == ["2", "24", "4.5", "15000", "1", "140:420:5", "hslm-a"]
 
