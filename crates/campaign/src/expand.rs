@@ -50,7 +50,8 @@ pub fn source(scenario: &Path, set: impl IntoIterator<Item = (String, Value)>) -
     Ok(Source { text, folder, name: scenario.display().to_string(), settings })
 }
 
-/// Resolves a request whose scenario is a file. `limits` are those that it names, `version` is the program's, `beside` the folder from which the plan names its scenario.
+/// Resolves a request whose scenario is a file. `limits` are those that it names, `version` is the program's, `beside` the folder
+/// from which the plan names its scenario.
 ///
 /// # Errors
 /// Every problem of the request, a line each; those of the scenario.

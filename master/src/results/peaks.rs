@@ -30,7 +30,8 @@ pub struct Peak {
     pub not_finite_from: Option<f64>,
 }
 
-/// All extremes in column order, without those of a run that ended before its peaks began to count; every peak's error follows from that of its kind, relative to the largest of the kind.
+/// All extremes in column order, without those of a run that ended before its peaks began to count; every peak's error follows
+/// from that of its kind, relative to the largest of the kind.
 pub fn told(peaks: &Peaks, choice: Option<&Choice>) -> Vec<Peak> {
     let mut of_kind: HashMap<String, f64> = HashMap::new();
     for peak in peaks.all() {

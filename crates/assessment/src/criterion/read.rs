@@ -85,9 +85,7 @@ impl Criteria {
         }
         wanted
     }
-}
 
-impl Criteria {
     /// The filters behind which a quantity is judged, each once, in the order of the criteria.
     pub fn filters(&self, quantity: &str, facts: &Facts) -> Vec<Filter> {
         let mut filters = Vec::new();
