@@ -54,6 +54,23 @@ pub struct Watch {
 }
 
 impl Watch {
+    /// Whether values between these bounds are no new extremes.
+    #[inline(always)]
+    pub fn holds(&self, [low, high]: &[[f64; WIDE]; 2]) -> bool {
+        let mut holds = true;
+        for k in 0..WIDE {
+            // Without a branch a lane, so that it is done in vectors.
+            holds = holds & (low[k] >= self.min[k]) & (high[k] <= self.max[k]);
+        }
+        holds
+    }
+
+    /// Goes on behind steps that were passed over, from the last two samples.
+    #[inline(always)]
+    pub fn resume(&mut self, before: [f64; WIDE], last: [f64; WIDE]) {
+        (self.before, self.last) = (before, last);
+    }
+
     /// Takes the samples of step `n`, at time n h.
     pub fn look(&mut self, sample: &[f64; WIDE], n: usize, h: f64) {
         self.look_with(pulp::Scalar::new(), sample, n, h);

@@ -3,9 +3,10 @@
 
 use pulp::{Simd, WithSimd};
 
+use crate::block::{Block, Group, QUAD, STEPS};
 use crate::extreme::{Extreme, WIDE, Watch};
 use crate::load::TrainLoad;
-use crate::march::{Keep, March, add};
+use crate::march::{March, Visit};
 use crate::modal::ModalBridge;
 
 /// Modal motions of a passage at steps 0 (at rest), 1, …
@@ -23,24 +24,17 @@ pub struct Histories<'a> {
 }
 
 struct Kept {
-    next: usize,
     positions: Vec<Vec<f64>>,
     accelerations: Vec<Vec<f64>>,
 }
 
-impl Keep for Kept {
-    fn keep(&mut self, q: &[f64; 4], a: &[f64; 4]) {
-        for (q, a) in q.iter().zip(a) {
-            if let (Some(positions), Some(accelerations)) =
-                (self.positions.get_mut(self.next), self.accelerations.get_mut(self.next))
-            {
-                positions.push(*q);
-                accelerations.push(*a);
+impl Visit for Kept {
+    fn block<S: Simd>(&mut self, _simd: S, _first: usize, q: &mut Block, a: &mut Block) {
+        for (histories, block) in [(&mut self.positions, q), (&mut self.accelerations, a)] {
+            for (histories, rows) in histories.chunks_mut(QUAD).zip(block.filled()) {
+                let modes = histories.iter_mut().enumerate();
+                modes.for_each(|(i, history)| history.extend(rows.iter().map(|row| row[i])));
             }
-            self.next += 1;
-        }
-        if self.next >= self.positions.len() {
-            self.next = 0;
         }
     }
 }
@@ -53,8 +47,8 @@ impl<'a> Histories<'a> {
             history
         };
         let all = || (0..bridge.modes().len()).map(|_| start()).collect::<Vec<_>>();
-        let mut kept = Kept { next: 0, positions: all(), accelerations: all() };
-        march.kept(&mut kept);
+        let mut kept = Kept { positions: all(), accelerations: all() };
+        march.visited(&mut kept);
         Self { bridge, load, stride, h: march.h, positions: kept.positions, accelerations: kept.accelerations }
     }
 
@@ -125,14 +119,21 @@ impl WithSimd for Accelerations<'_, '_> {
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
         let Histories { bridge, accelerations, h, .. } = self.histories;
-        let groups = bridge.acceleration_rows().chunks_exact(accelerations.len().max(1));
-        let mut now = vec![0.0; accelerations.len()];
-        for n in 0..self.histories.samples() {
-            now.iter_mut().zip(accelerations).for_each(|(now, history)| *now = history[n]);
-            for (watch, rows) in self.watches.iter_mut().zip(groups.clone()) {
-                let mut y = [0.0; WIDE];
-                add(simd, rows, &now, &mut y);
-                watch.look_with(simd, &y, n, *h);
+        let (modes, samples) = (accelerations.len(), self.histories.samples());
+        let mut block = Block::new(modes);
+        for first in (0..samples).step_by(STEPS) {
+            let steps = STEPS.min(samples - first);
+            block.advance(steps);
+            for (quad, histories) in accelerations.chunks(QUAD).enumerate() {
+                for (i, history) in histories.iter().enumerate() {
+                    let now = &history[first..first + steps];
+                    block.quad(quad).iter_mut().zip(now).for_each(|(row, a)| row[i] = *a);
+                }
+            }
+            block.bound();
+            let last = first + steps == samples;
+            for (watch, rows) in self.watches.iter_mut().zip(bridge.acceleration_rows().chunks(modes.max(1))) {
+                Group { rows, rest: None, first, last, h: *h }.watch(simd, &block, watch);
             }
         }
     }

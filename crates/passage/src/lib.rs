@@ -25,6 +25,7 @@
 //! A response depends on bridge, train, heading, free vibration and its own speed alone: not on other speeds, threads or
 //! vector instructions.
 
+mod block;
 pub mod extreme;
 pub mod history;
 pub mod lines;

@@ -1,17 +1,14 @@
-//! A passage step by step: modes by the exact recursion, outputs combined and reduced at once.
+//! A passage step by step: modes by the exact recursion, outputs combined and reduced block by block.
 //!
-//! The loops run over modes and over groups of eight outputs; the instruction set is chosen at run time, the order of
-//! additions and their rounding are the same with all of them.
+//! The instruction set is chosen at run time; the order of additions and their rounding are the same with all of them.
 
 use pulp::{Simd, WithSimd};
 
+use crate::block::{Block, Group, QUAD, Rest, STEPS};
 use crate::extreme::{Extreme, WIDE, Watch};
 use crate::load::TrainLoad;
 use crate::modal::ModalBridge;
 use crate::recursion::Coefficients;
-
-/// Four modes.
-const QUAD: usize = 4;
 
 /// A passage at one speed.
 pub struct March<'a> {
@@ -50,20 +47,6 @@ impl Quad {
     }
 }
 
-/// What a march is asked for beside extremes.
-pub trait Keep {
-    /// Modal motion after a step: q and q̈ in fours.
-    fn keep(&mut self, q: &[f64; QUAD], a: &[f64; QUAD]);
-}
-
-/// Nothing is kept.
-pub struct Nothing;
-
-impl Keep for Nothing {
-    #[inline(always)]
-    fn keep(&mut self, _q: &[f64; QUAD], _a: &[f64; QUAD]) {}
-}
-
 impl<'a> March<'a> {
     /// At `speed` m/s, with free vibration for `free` s behind the train; the step is the longest that is a whole number of
     /// rows and no longer than the bridge allows.
@@ -99,116 +82,93 @@ impl<'a> March<'a> {
     /// Extremes of all outputs, in the bridge's order.
     #[must_use]
     pub fn extremes(&self) -> Vec<Extreme> {
-        let (mut quads, positions) = (self.quads(), self.bridge.positions());
+        let positions = self.bridge.positions();
         let accelerations = self.bridge.outputs().len() - positions;
-        let [wide, fast] = [positions, accelerations].map(|n| n.div_ceil(WIDE));
-        let mut watches = vec![Watch::default(); wide + fast];
-        let job = Job { march: self, quads: &mut quads, watches: &mut watches, wide };
-        pulp::Arch::new().dispatch(job);
-        let found = watches.iter().flat_map(|watch| watch.finish(self.steps + 1, self.h));
-        let found: Vec<Extreme> = found.collect();
-        let (slow, quick) = found.split_at(wide * WIDE);
-        slow[..positions].iter().chain(&quick[..accelerations]).copied().collect()
+        let [slow, fast] = [positions, accelerations].map(|n| vec![Watch::default(); n.div_ceil(WIDE)]);
+        let mut extremes = Extremes { march: self, slow, fast, rest: Rest::default() };
+        pulp::Arch::new().dispatch(Job { march: self, visit: &mut extremes });
+        let found = |watches: &[Watch], count: usize| -> Vec<Extreme> {
+            watches.iter().flat_map(|watch| watch.finish(self.steps + 1, self.h)).take(count).collect()
+        };
+        [found(&extremes.slow, positions), found(&extremes.fast, accelerations)].concat()
     }
 
-    /// Runs with every modal motion handed to `keep`.
-    pub fn kept(&self, keep: &mut impl Keep) {
-        let mut quads = self.quads();
-        self.run(pulp::Scalar::new(), &mut quads, &mut [], 0, keep);
+    /// Runs with the modal motions of every block handed to `visit`.
+    pub fn visited(&self, visit: &mut impl Visit) {
+        pulp::Arch::new().dispatch(Job { march: self, visit });
     }
 
     #[inline(always)]
-    fn run<S: Simd>(&self, simd: S, quads: &mut [Quad], watches: &mut [Watch], wide: usize, keep: &mut impl Keep) {
-        let modes = self.bridge.modes().len();
-        let (rows, fast_rows) = (self.bridge.position_rows(), self.bridge.acceleration_rows());
-        let (slow, fast) = watches.split_at_mut(wide);
-        let (groups, across) = (slow.len(), quads.len());
-        let mut loads = Loads::default();
-        let mut q = vec![0.0; across * QUAD];
-        let mut a = vec![0.0; across * QUAD];
-        for begin in (0..self.steps).step_by(BLOCK) {
-            let end = (begin + BLOCK).min(self.steps);
-            loads.fetch(self, [begin, end], groups, across);
-            for n in begin + 1..=end {
-                let k = n - begin;
-                let (before, now) = loads.forces[(k - 1) * across..(k + 1) * across].split_at(across);
-                for (j, ((quad, p0), p1)) in quads.iter_mut().zip(before).zip(now).enumerate() {
-                    quad.step(p0, p1);
-                    keep.keep(&quad.q, &quad.a);
-                    q[j * QUAD..(j + 1) * QUAD].copy_from_slice(&quad.q);
-                    a[j * QUAD..(j + 1) * QUAD].copy_from_slice(&quad.a);
-                }
-                let rest = &loads.rest[(k - 1) * groups..k * groups];
-                for (group, (watch, rest)) in slow.iter_mut().zip(rest).enumerate() {
-                    let mut y = rest.map(f64::from);
-                    add(simd, &rows[group * modes..(group + 1) * modes], &q, &mut y);
-                    watch.look_with(simd, &y, n, self.h);
-                }
-                for (group, watch) in fast.iter_mut().enumerate() {
-                    let mut y = [0.0; WIDE];
-                    add(simd, &fast_rows[group * modes..(group + 1) * modes], &a, &mut y);
-                    watch.look_with(simd, &y, n, self.h);
+    fn run<S: Simd>(&self, simd: S, visit: &mut impl Visit) {
+        let (mut quads, modes) = (self.quads(), self.bridge.modes().len());
+        let (forces, _) = self.load.forces.as_chunks::<QUAD>();
+        let (mut q, mut a) = (Block::new(modes), Block::new(modes));
+        let across = quads.len();
+        for begin in (0..self.steps).step_by(STEPS) {
+            let steps = STEPS.min(self.steps - begin);
+            q.advance(steps);
+            a.advance(steps);
+            for (j, quad) in quads.iter_mut().enumerate() {
+                // Zero behind the train.
+                let force = |n: usize| forces.get(n * self.stride * across + j).unwrap_or(&[0.0; QUAD]);
+                let mut before = force(begin);
+                for (n, (q, a)) in (begin + 1..).zip(q.quad(j).iter_mut().zip(a.quad(j))) {
+                    let now = force(n);
+                    quad.step(before, now);
+                    (*q, *a) = (quad.q, quad.a);
+                    before = now;
                 }
             }
+            visit.block(simd, begin + 1, &mut q, &mut a);
         }
     }
 }
 
-/// Rows of the tables for some steps to come. A step skips rows, and the tables are larger than the caches: row by row, each would
-/// be waited for; fetched together, they come one behind the other.
-#[derive(Default)]
-struct Loads {
-    /// At the begin of the first step and at the end of every step.
-    forces: Vec<[f64; QUAD]>,
-    /// At the end of every step.
-    rest: Vec<[f32; WIDE]>,
+/// What is done with modal motions.
+pub trait Visit {
+    /// q and q̈ of the steps from `first` on.
+    fn block<S: Simd>(&mut self, simd: S, first: usize, q: &mut Block, a: &mut Block);
 }
 
-/// Steps whose rows are fetched together.
-const BLOCK: usize = 64;
+/// Reduces all outputs.
+struct Extremes<'a, 'b> {
+    march: &'a March<'b>,
+    slow: Vec<Watch>,
+    fast: Vec<Watch>,
+    rest: Rest,
+}
 
-impl Loads {
-    /// Fetches what the steps from `begin` to `end` need; zero behind the train.
-    fn fetch(&mut self, march: &March, [begin, end]: [usize; 2], groups: usize, across: usize) {
-        let (forces, _) = march.load.forces.as_chunks::<QUAD>();
-        self.forces.clear();
-        for n in begin..=end {
-            let row = n * march.stride;
-            self.forces.extend_from_slice(forces.get(row * across..(row + 1) * across).unwrap_or(&[]));
-            self.forces.resize((n - begin + 1) * across, [0.0; QUAD]);
+impl Visit for Extremes<'_, '_> {
+    #[inline(always)]
+    fn block<S: Simd>(&mut self, simd: S, first: usize, q: &mut Block, a: &mut Block) {
+        let March { bridge, load, stride, h, steps } = *self.march;
+        let (groups, last) = (self.slow.len(), first + STEPS > steps);
+        q.bound();
+        a.bound();
+        let modes = bridge.modes().len().max(1);
+        for (group, (watch, rows)) in self.slow.iter_mut().zip(bridge.position_rows().chunks(modes)).enumerate() {
+            // A history begins at rest, whatever the first axle does to the place where it enters.
+            let at = |n: usize| if n == 0 { None } else { load.rest.get(n * stride * groups + group) };
+            self.rest.fill(first, |n| at(n).copied().unwrap_or_default());
+            Group { rows, rest: Some(&self.rest), first, last, h }.watch(simd, q, watch);
         }
-        self.rest.clear();
-        for n in begin + 1..=end {
-            let row = n * march.stride;
-            self.rest.extend_from_slice(march.load.rest.get(row * groups..(row + 1) * groups).unwrap_or(&[]));
-            self.rest.resize((n - begin) * groups, [0.0; WIDE]);
+        for (watch, rows) in self.fast.iter_mut().zip(bridge.acceleration_rows().chunks(modes)) {
+            Group { rows, rest: None, first, last, h }.watch(simd, a, watch);
         }
     }
 }
 
 /// A march under an instruction set.
-struct Job<'a, 'b> {
+struct Job<'a, 'b, V> {
     march: &'a March<'b>,
-    quads: &'a mut [Quad],
-    watches: &'a mut [Watch],
-    wide: usize,
+    visit: &'a mut V,
 }
 
-impl WithSimd for Job<'_, '_> {
+impl<V: Visit> WithSimd for Job<'_, '_, V> {
     type Output = ();
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
-        self.march.run(simd, self.quads, self.watches, self.wide, &mut Nothing);
-    }
-}
-
-/// y ← y + Σ_j row_j x_j, added in the order of j.
-#[inline(always)]
-pub fn add<S: Simd>(simd: S, rows: &[[f64; WIDE]], x: &[f64], y: &mut [f64; WIDE]) {
-    for (row, x) in rows.iter().zip(x) {
-        let x = simd.splat_f64s(*x);
-        let lanes = S::as_mut_simd_f64s(y).0.iter_mut().zip(S::as_simd_f64s(row).0);
-        lanes.for_each(|(y, row)| *y = simd.add_f64s(*y, simd.mul_f64s(*row, x)));
+        self.march.run(simd, self.visit);
     }
 }
