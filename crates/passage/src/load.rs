@@ -7,13 +7,15 @@
 //!
 //! Neither depends on the speed: a passage at v in steps of h reads every (v h/Δs)-th row, which is a whole number.
 
+use pulp::{Simd, WithSimd};
 use ttb_trains::ForceTrain;
 
+use crate::block::{add, larger, smaller};
 use crate::extreme::{Extreme, WIDE};
 use crate::modal::ModalBridge;
 
-/// Rows that are made together.
-const BLOCK: usize = 2048;
+/// Rows that are made together: axle after axle adds to them, so that they ought to stay in a cache.
+const BLOCK: usize = 256;
 
 /// Tables of a train.
 #[derive(Clone, Debug)]
@@ -50,7 +52,6 @@ impl TrainLoad {
         };
         let ([begin, end], width, pad) = (lines.extent(), lines.count(), bridge.mode_pad());
         let rows = ((end - begin + train.length()) / grid).ceil() as usize + 1;
-        let modes = bridge.modes();
         let groups = (width - pad) / WIDE;
         let mut load = Self {
             grid,
@@ -60,7 +61,6 @@ impl TrainLoad {
             statics: vec![Extreme::default(); bridge.positions()],
         };
         let mut block = Vec::new();
-        let mut follow = vec![0.0; modes.len()];
         let mut places = Vec::new();
         for from in (0..rows).step_by(BLOCK) {
             let count = BLOCK.min(rows - from);
@@ -77,29 +77,65 @@ impl TrainLoad {
                     lines.add(&places, axle.load, &mut block[(first - from) * width..]);
                 }
             }
-            for (n, row) in (from..).zip(block.chunks_exact(width)) {
-                let (forces, statics) = row.split_at(pad);
-                load.forces.extend_from_slice(forces);
-                for (found, value) in load.statics.iter_mut().zip(statics) {
-                    if *value > found.max {
-                        (found.max, found.max_time) = (*value, n as f64 * grid);
-                    }
-                    if *value < found.min {
-                        (found.min, found.min_time) = (*value, n as f64 * grid);
-                    }
-                }
-                let flexible = forces.iter().zip(modes).map(|(p, mode)| p / (mode.omega * mode.omega));
-                follow.iter_mut().zip(flexible).for_each(|(q, flexible)| *q = flexible);
-                let wide = statics.chunks_exact(WIDE).zip(bridge.position_rows().chunks_exact(modes.len().max(1)));
-                load.rest.extend(wide.map(|(value, rows)| {
-                    let mut rest: [f64; WIDE] = std::array::from_fn(|i| value[i]);
-                    for (row, q) in rows.iter().zip(&follow) {
-                        rest.iter_mut().zip(row).for_each(|(rest, y)| *rest -= y * q);
-                    }
-                    rest.map(|rest| rest as f32)
-                }));
-            }
+            pulp::Arch::new().dispatch(Take { load: &mut load, bridge, block: &block, width });
+            load.look(&block, width, pad, from);
         }
         load
+    }
+
+    /// Takes the static extremes of a block of rows from number `from` on.
+    fn look(&mut self, block: &[f64], width: usize, pad: usize, from: usize) {
+        let column = |k: usize| block.iter().skip(pad + k).step_by(width);
+        let place = |k: usize, value: f64| column(k).position(|y| *y == value).unwrap_or(0) + from;
+        for (group, found) in self.statics.chunks_mut(WIDE).enumerate() {
+            let (mut low, mut high) = ([0.0; WIDE], [0.0; WIDE]);
+            for row in block.chunks_exact(width) {
+                let (values, _) = row[pad..].as_chunks::<WIDE>();
+                for k in 0..WIDE {
+                    (low[k], high[k]) = (smaller(low[k], values[group][k]), larger(high[k], values[group][k]));
+                }
+            }
+            for (k, found) in found.iter_mut().enumerate() {
+                if high[k] > found.max {
+                    (found.max, found.max_time) = (high[k], place(WIDE * group + k, high[k]) as f64 * self.grid);
+                }
+                if low[k] < found.min {
+                    (found.min, found.min_time) = (low[k], place(WIDE * group + k, low[k]) as f64 * self.grid);
+                }
+            }
+        }
+    }
+}
+
+/// A block of rows that is taken into the tables.
+struct Take<'a> {
+    load: &'a mut TrainLoad,
+    bridge: &'a ModalBridge,
+    block: &'a [f64],
+    width: usize,
+}
+
+impl WithSimd for Take<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) {
+        let modes = self.bridge.modes();
+        // −q_j: what modes follow at once is taken off.
+        let mut follow = vec![0.0; modes.len()];
+        for row in self.block.chunks_exact(self.width) {
+            let (forces, statics) = row.split_at(self.bridge.mode_pad());
+            self.load.forces.extend_from_slice(forces);
+            for ((q, p), mode) in follow.iter_mut().zip(forces).zip(modes) {
+                *q = -(p / (mode.omega * mode.omega));
+            }
+            let (statics, _) = statics.as_chunks::<WIDE>();
+            let rows = self.bridge.position_rows().chunks_exact(modes.len().max(1));
+            for (rest, rows) in statics.iter().zip(rows) {
+                let mut rest = *rest;
+                add(simd, rows, &follow, &mut rest);
+                self.load.rest.push(rest.map(|rest| rest as f32));
+            }
+        }
     }
 }
