@@ -151,9 +151,13 @@ impl Compute for Modal<'_> {
         small(BATCH, runs, workers)
     }
 
+    fn share(&self, a: &Run, b: &Run) -> bool {
+        (a.train, a.variant) == (b.train, b.variant)
+    }
+
     fn compute(&self, runs: &[Run], stop: &AtomicBool) -> Vec<Computed> {
         let mut out = Vec::with_capacity(runs.len());
-        for part in runs.chunk_by(|a, b| (a.train, a.variant) == (b.train, b.variant)) {
+        for part in runs.chunk_by(|a, b| self.share(a, b)) {
             self.batch_of(part, stop, &mut out);
         }
         out

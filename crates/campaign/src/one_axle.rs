@@ -172,6 +172,11 @@ impl Compute for OneAxle<'_> {
         small(self.plan.trains.len(), runs, workers)
     }
 
+    fn share(&self, a: &Run, b: &Run) -> bool {
+        let of = |run: &Run| (run.variant, run.speed_km_h, self.heading(run));
+        of(a) == of(b)
+    }
+
     /// Speed by speed; what else differs keeps its order.
     fn arrange(&self, runs: &mut [Run]) {
         let speed = |run: &Run| run.speed_km_h.unwrap_or(0.0);
@@ -184,8 +189,7 @@ impl Compute for OneAxle<'_> {
 
     fn compute(&self, runs: &[Run], stop: &AtomicBool) -> Vec<Computed> {
         let mut out = Vec::with_capacity(runs.len());
-        let of = |run: &Run| (run.variant, run.speed_km_h, self.heading(run));
-        for part in runs.chunk_by(|a, b| of(a) == of(b)) {
+        for part in runs.chunk_by(|a, b| self.share(a, b)) {
             self.at_one_speed(part, stop, &mut out);
         }
         out

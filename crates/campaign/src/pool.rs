@@ -5,7 +5,7 @@
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 
-use crate::compute::{Compute, Computed};
+use crate::compute::{self, Compute, Computed};
 use crate::error::Error;
 use crate::journal::Journal;
 use crate::plan::Run;
@@ -33,16 +33,15 @@ pub fn compute(
     stop: &AtomicBool,
     tell: &(dyn Fn(Progress) + Sync),
 ) -> Result<Progress, Error> {
-    let batch = with.batch(runs.len(), workers.max(1)).max(1);
+    let parts = compute::parts(with, runs, with.batch(runs.len(), workers.max(1)));
     let (next, ended, failure) = (AtomicUsize::new(0), Mutex::new(Progress::default()), Mutex::new(None));
     let leave = AtomicBool::new(false);
     let work = || {
         loop {
-            let from = next.fetch_add(batch, Ordering::Relaxed);
-            if from >= runs.len() || stop.load(Ordering::Relaxed) || leave.load(Ordering::Relaxed) {
+            let part = parts.get(next.fetch_add(1, Ordering::Relaxed));
+            let Some(part) = part.filter(|_| !stop.load(Ordering::Relaxed) && !leave.load(Ordering::Relaxed)) else {
                 return;
-            }
-            let part = &runs[from..runs.len().min(from + batch)];
+            };
             for computed in with.compute(part, stop) {
                 let Computed::Done(record) = computed else { continue };
                 let record = record.finite();

@@ -169,6 +169,14 @@ impl Compute for Runner<'_> {
         }
     }
 
+    fn share(&self, a: &Run, b: &Run) -> bool {
+        match self.plan.way {
+            Way::Modal => self.modal.share(a, b),
+            Way::OneAxle => self.one_axle.share(a, b),
+            Way::Coupled => false,
+        }
+    }
+
     fn arrange(&self, runs: &mut [Run]) {
         if self.plan.way == Way::OneAxle {
             self.one_axle.arrange(runs);
