@@ -3,7 +3,7 @@
 import { compute, connect, Refused } from "./engine.js";
 import { fields, tellFrequencies } from "./fields.js";
 import { arrange, build, changed, collect, fieldOf, fill, limits, toggleDifferent } from "./form.js";
-import { modes, sketch } from "./sketch.js";
+import { modes, rest, sketch } from "./sketch.js";
 import { clear, lean, shown } from "./results.js";
 import { example, fragment, fromFragment, take } from "./files.js";
 
@@ -129,7 +129,7 @@ async function start(event) {
   const begin = performance.now();
   try {
     tell("The plan is being made …");
-    const plan = await engine.long("plan", { asked }, controller.signal);
+    const plan = await engine.long("plan", { asked, workers: engine.workers }, controller.signal);
     const progress = (done, total) => {
       byId("progress").value = done / total;
       tell(`${done} of ${total} runs`);
@@ -156,6 +156,7 @@ async function start(event) {
 }
 
 function busy(is) {
+  rest(is);
   byId("compute").disabled = is;
   byId("cancel").hidden = !is;
   byId("progress").hidden = !is;

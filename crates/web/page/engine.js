@@ -70,10 +70,12 @@ class Workers {
       throw new Error(`this browser cannot run it, which needs WebAssembly with vectors of 128 bits (2023): ${error.message}`);
     });
     engine.script = URL.createObjectURL(new Blob([await script.text()], { type: "text/javascript" }));
-    engine.count = Math.max(1, Math.min(navigator.hardwareConcurrency || 2, 16));
+    engine.workers = Math.max(1, Math.min(navigator.hardwareConcurrency || 2, 16));
     engine.desk = new Desk(() => engine.make());
-    engine.pool = Array.from({ length: engine.count }, () => new Desk(() => engine.make()));
-    engine.name = `in this browser, ${engine.count} ${engine.count > 1 ? "workers" : "worker"}`;
+    engine.pool = Array.from({ length: engine.workers }, () => new Desk(() => engine.make()));
+    // Ready before anybody computes.
+    for (const desk of engine.pool) desk.start();
+    engine.name = `in this browser, ${engine.workers} ${engine.workers > 1 ? "workers" : "worker"}`;
     return engine;
   }
 
@@ -105,17 +107,18 @@ class Workers {
   }
 
   places() {
-    return this.count;
+    return this.workers;
   }
 
-  perCall(batch) {
-    return batch;
+  perCall() {
+    return 1;
   }
 }
 
 class Program {
   static async connect() {
     const engine = new Program();
+    engine.workers = navigator.hardwareConcurrency || 2;
     engine.name = "in the program ttb, all processors";
     return engine;
   }
@@ -151,8 +154,8 @@ class Program {
     return 1;
   }
 
-  perCall(batch) {
-    return batch * 2 * (navigator.hardwareConcurrency || 2);
+  perCall() {
+    return 2 * this.workers;
   }
 }
 
@@ -162,31 +165,30 @@ export async function connect() {
   return native ? Program.connect() : Workers.connect();
 }
 
-// Computes runs, shared out in parts; returns the records by id. Their order does not matter: tables follow the plan.
-async function share(engine, asked, runs, batch, records, tell, signal) {
-  const part = Math.max(1, Math.min(engine.perCall(batch), Math.ceil(runs.length / (2 * engine.places()))));
+// Computes parts of runs, whoever is free the next one, and puts their records by id. Their order does not matter: tables follow the
+// plan.
+async function share(engine, asked, parts, records, tell, signal) {
   let next = 0;
   const work = async (place) => {
-    while (next < runs.length) {
-      const mine = runs.slice(next, next + part);
-      next += mine.length;
-      for (const record of await engine.callAt(place, "runs", { asked, runs: mine }, signal)) records.set(record.run_id, record);
+    while (next < parts.length) {
+      const runs = parts.slice(next, next + engine.perCall()).flat();
+      next += engine.perCall();
+      for (const record of await engine.callAt(place, "runs", { asked, runs }, signal)) records.set(record.run_id, record);
       tell(records.size);
     }
   };
-  const places = Math.min(engine.places(), Math.ceil(runs.length / part));
-  await Promise.all(Array.from({ length: places }, (_, place) => work(place)));
+  await Promise.all(Array.from({ length: engine.places() }, (_, place) => work(place)));
 }
 
 export async function compute(engine, asked, plan, tell, signal) {
   const records = new Map();
   let total = plan.runs.length;
-  await share(engine, asked, plan.runs, plan.batch, records, (done) => tell(done, total), signal);
+  await share(engine, asked, plan.parts, records, (done) => tell(done, total), signal);
   while (plan.refine) {
-    const more = await engine.long("more", { asked, records: [...records.values()] }, signal);
-    if (more.length === 0) break;
-    total += more.length;
-    await share(engine, asked, more, plan.batch, records, (done) => tell(done, total), signal);
+    const parts = await engine.long("more", { asked, records: [...records.values()], workers: engine.workers }, signal);
+    if (parts.length === 0) break;
+    total += parts.flat().length;
+    await share(engine, asked, parts, records, (done) => tell(done, total), signal);
   }
   return [...records.values()];
 }

@@ -113,10 +113,20 @@ function dimensions(svg, of, x, y) {
 }
 
 let beat = 0;
+let resting = false;
+let swing = () => {};
+
+// While runs are computed the processors are theirs: shapes stand still.
+export function rest(is) {
+  resting = is;
+  beat += 1;
+  if (!is) swing();
+}
 
 // Shapes of the lowest modes; they swing unless the user asks for less motion.
 export function modes(place, of, list) {
-  const alive = (beat += 1);
+  beat += 1;
+  swing = () => {};
   const moving = [];
   const figures = list.map((mode, i) => {
     const [width, height] = [240, 84];
@@ -142,12 +152,16 @@ export function modes(place, of, list) {
   if (still.matches || !list.length) return;
   // The lowest mode swings in two seconds; the others keep their ratio to it, up to three times.
   const first = list[0].frequency;
-  const swing = (now) => {
-    if (alive !== beat || !place.isConnected) return;
-    if (!document.hidden) for (const [draw, frequency] of moving) draw(Math.cos((Math.PI * now * Math.min(3, frequency / first)) / 1000));
-    requestAnimationFrame(swing);
+  swing = () => {
+    const alive = beat;
+    const step = (now) => {
+      if (alive !== beat || resting || !place.isConnected) return;
+      if (!document.hidden) for (const [draw, frequency] of moving) draw(Math.cos((Math.PI * now * Math.min(3, frequency / first)) / 1000));
+      requestAnimationFrame(step);
+    };
+    requestAnimationFrame(step);
   };
-  requestAnimationFrame(swing);
+  swing();
 }
 
 // Nodes of beams in their order, a piece for every member.

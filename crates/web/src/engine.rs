@@ -9,7 +9,7 @@ use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use serde_json::json;
 use ttb_campaign::governing::Compared;
-use ttb_campaign::{Compute, Record, Run};
+use ttb_campaign::{Compute, Record, Run, compute};
 
 use crate::about::About;
 use crate::fault::Fault;
@@ -46,6 +46,9 @@ struct Of {
     name: String,
     #[serde(default)]
     date: String,
+    /// Number of workers among whom runs are shared out.
+    #[serde(default)]
+    workers: usize,
 }
 
 #[derive(Deserialize)]
@@ -81,8 +84,8 @@ impl Engine {
             "axles" => axles(&read(body)?),
             "limits" => read::<Limits>(body)?.criteria().map(|criteria| written(&criteria.files)),
             "plan" => {
-                let session = self.session(read::<Of>(body)?.asked)?;
-                plan(&session)
+                let of: Of = read(body)?;
+                plan(&*self.session(of.asked)?, of.workers)
             }
             "runs" => {
                 let of: Of = read(body)?;
@@ -94,9 +97,8 @@ impl Engine {
                 let of: Of = read(body)?;
                 let (session, records) = (self.session(of.asked)?, by_id(of.records));
                 let asked = outcome::refined(&session, &records)?;
-                let new: Vec<Wanted> =
-                    asked.iter().filter(|run| !records.contains_key(&run.id)).map(Wanted::from).collect();
-                Ok(written(&new))
+                let new: Vec<Run> = asked.into_iter().filter(|run| !records.contains_key(&run.id)).collect();
+                Ok(written(&parts(&session, &new, of.workers)?))
             }
             "outcome" => {
                 let of: Of = read(body)?;
@@ -129,8 +131,8 @@ impl Engine {
     }
 }
 
-/// All runs of a request in the order in which they cost least together, and how many of them a call takes best.
-fn plan(session: &Session) -> Result<String, Fault> {
+/// All runs of a request in the order in which they cost least together, and the parts of a call each.
+fn plan(session: &Session, workers: usize) -> Result<String, Fault> {
     let problems = session.asked.problems();
     if !problems.is_empty() {
         return Err(Fault::new(problems.join("\n")));
@@ -143,10 +145,17 @@ fn plan(session: &Session) -> Result<String, Fault> {
     runner.arrange(&mut runs);
     let trains: Vec<&str> = plan.trains.iter().map(|train| train.name.as_str()).collect();
     Ok(written(&json!({
-        "way": plan.way.name(), "chosen": session.expanded.chosen, "batch": runner.batch(usize::MAX, 1), "trains": trains,
+        "way": plan.way.name(), "chosen": session.expanded.chosen, "trains": trains,
         "speeds": plan.speeds_km_h.len(), "refine": plan.refine, "hash": plan.scenario_sha256,
-        "runs": runs.iter().map(Wanted::from).collect::<Vec<_>>(),
+        "runs": runs.iter().map(Wanted::from).collect::<Vec<_>>(), "parts": parts(session, &runs, workers)?,
     })))
+}
+
+/// Runs in parts of a call each, for so many workers.
+fn parts(session: &Session, runs: &[Run], workers: usize) -> Result<Vec<Vec<Wanted>>, Fault> {
+    let runner = session.runner()?;
+    let parts = compute::parts(&runner, runs, runner.batch(runs.len(), workers.max(1)));
+    Ok(parts.into_iter().map(|part| part.iter().map(Wanted::from).collect()).collect())
 }
 
 /// A pasted list of axles as [m behind the first, N].

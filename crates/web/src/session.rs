@@ -1,14 +1,14 @@
 //! A request that was resolved, with what was prepared for it.
 
 use std::path::Path;
-use std::sync::atomic::AtomicBool;
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 
 use ttb_campaign::coupled::Source;
 use ttb_campaign::expand::{self, Expanded};
 use ttb_campaign::limits::Limits;
 use ttb_campaign::runner::Kept;
-use ttb_campaign::{Compute, Computed, Record, Run, Runner};
+use ttb_campaign::{Compute, Computed, Record, Run, Runner, compute};
 use ttb_scenario::spec::Profile;
 
 use crate::fault::Fault;
@@ -17,6 +17,9 @@ use crate::room::Room;
 
 /// Version that decides results.
 pub const VERSION: &str = env!("CARGO_PKG_VERSION");
+
+/// What a thread leaves that ended by a panic.
+type Died = Box<dyn std::any::Any + Send>;
 
 /// A request that was resolved.
 pub struct Session {
@@ -62,23 +65,32 @@ impl Session {
     /// As [`Self::runner`].
     pub fn compute(&self, runs: &[Run], threads: usize, stop: &AtomicBool) -> Result<Vec<Record>, Fault> {
         let runner = self.runner()?;
-        let part = runs.len().div_ceil(threads.max(1)).max(1);
-        let of_part = |runs: &[Run]| runner.compute(runs, stop);
-        let computed: Vec<Computed> = if threads > 1 {
-            std::thread::scope(|scope| {
-                let parts: Vec<_> = runs.chunks(part).map(|runs| scope.spawn(move || of_part(runs))).collect();
-                parts.into_iter().map(|part| part.join()).collect::<Result<Vec<_>, _>>()
-            })
-            .map_err(|_| Fault::new("a run ended the thread that computed it: this is an error of the program"))?
-            .concat()
-        } else {
-            of_part(runs)
+        let parts = compute::parts(&runner, runs, runner.batch(runs.len(), threads.max(1)));
+        let next = AtomicUsize::new(0);
+        let work = || {
+            let mut mine = Vec::new();
+            while let at = next.fetch_add(1, Ordering::Relaxed)
+                && let Some(part) = parts.get(at)
+            {
+                mine.push((at, runner.compute(part, stop)));
+            }
+            mine
         };
+        let mut computed = std::thread::scope(|scope| {
+            let others: Vec<_> = (1..threads).map(|_| scope.spawn(work)).collect();
+            let own = work();
+            others.into_iter().try_fold(own, |mut all, other| {
+                all.extend(other.join()?);
+                Ok(all)
+            })
+        })
+        .map_err(|_: Died| Fault::new("a run ended the thread that computed it: this is an error of the program"))?;
+        computed.sort_by_key(|(at, _)| *at);
         let done = |computed| match computed {
             Computed::Done(record) => Some(Record::finite(record)),
             Computed::Stopped => None,
         };
-        Ok(computed.into_iter().filter_map(done).collect())
+        Ok(computed.into_iter().flat_map(|(_, part)| part).filter_map(done).collect())
     }
 }
 
