@@ -5,11 +5,14 @@
 //! second signal   the end, at once
 //! ```
 //!
-//! An end at once leaves no temporary folder either. A signal that was ignored when the program began (`nohup`) stays so.
+//! The same signal within a second is still the first: a terminal tells all its processes, and one that has started this
+//! program passes it on. An end at once leaves no temporary folder either. A signal that was ignored when the program began
+//! (`nohup`) stays so.
 
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, AtomicI32, Ordering};
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
+use std::time::{Duration, Instant};
 
 use ttb_fmi::leave;
 
@@ -17,6 +20,9 @@ use ttb_fmi::leave;
 const SIGHUP: i32 = 1;
 const SIGINT: i32 = 2;
 const SIGTERM: i32 = 15;
+
+/// For so long the first signal, heard again, is the same request.
+const PASSED_ON: Duration = Duration::from_secs(1);
 
 /// A signal that ends the program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -43,6 +49,7 @@ impl Signal {
 #[derive(Clone, Debug, Default)]
 pub struct Stop {
     asked: Arc<AtomicI32>,
+    first: Arc<OnceLock<(i32, Instant)>>,
     flag: Arc<AtomicBool>,
     gentle: Arc<AtomicBool>,
     removed: Arc<Mutex<Vec<PathBuf>>>,
@@ -61,9 +68,17 @@ impl Stop {
     }
 
     fn take(&self, signal: i32) {
-        let first = self.asked.swap(signal, Ordering::Relaxed) == 0;
+        let mut is_first = false;
+        let (first, since) = *self.first.get_or_init(|| {
+            is_first = true;
+            (signal, Instant::now())
+        });
+        if !is_first && first == signal && since.elapsed() < PASSED_ON {
+            return;
+        }
+        self.asked.store(signal, Ordering::Relaxed);
         self.flag.store(true, Ordering::Relaxed);
-        if !(first && self.gentle.load(Ordering::Relaxed)) {
+        if !(is_first && self.gentle.load(Ordering::Relaxed)) {
             for path in self.removed.lock().unwrap_or_else(PoisonError::into_inner).iter() {
                 // A folder goes only if it is empty.
                 let _ = std::fs::remove_file(path).or_else(|_| std::fs::remove_dir(path));
@@ -124,6 +139,8 @@ mod tests {
         let stop = Stop::default();
         assert_eq!(stop.asked(), None);
         stop.gently();
+        stop.take(SIGTERM);
+        // Passed on by somebody: it ends nothing, or this test would end here.
         stop.take(SIGTERM);
         let signal = stop.asked().unwrap();
         assert_eq!((signal.name(), signal.code()), ("SIGTERM", 143));

@@ -211,6 +211,17 @@ def test_a_second_signal_ends_a_run_at_once_and_leaves_nothing_behind(ttb, tmp_p
     assert emptied(tmp_path / "temporary") and not (tmp_path / "out" / ".ttb-lock").exists()
 
 
+def test_a_signal_that_is_passed_on_is_heard_once(ttb, tmp_path):
+    """Ctrl-C in a terminal reaches the program and the Python that has started it, which tells the program: results are kept."""
+    process = begin(ttb, tmp_path / "out", tmp_path / "temporary")
+    end = time.monotonic() + 0.5
+    while time.monotonic() < end and process.poll() is None:
+        process.send_signal(signal.SIGINT)
+        time.sleep(0.001)
+    process.communicate(timeout=30)
+    assert process.returncode == 128 + signal.SIGINT and summary(tmp_path / "out")["status"] == "interrupted"
+
+
 def test_a_command_without_results_ends_at_the_first_signal(ttb, tmp_path):
     """Here while it builds; nothing is left, not even the folder it was to write into."""
     temporary = tmp_path / "temporary"
