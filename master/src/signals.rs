@@ -9,7 +9,7 @@
 //! program passes it on. An end at once leaves no temporary folder either. A signal that was ignored when the program began
 //! (`nohup`) stays so.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, AtomicI32, Ordering};
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 use std::time::{Duration, Instant};
@@ -87,9 +87,16 @@ impl Stop {
         }
     }
 
-    /// Names a file, or a folder that may be empty, which is removed at an end at once.
-    pub fn removes(&self, path: &Path) {
-        self.removed.lock().unwrap_or_else(PoisonError::into_inner).push(path.to_path_buf());
+    /// Makes something, and keeps the paths that `make` gives with it: files, or folders that may be empty, which are removed
+    /// at an end at once. An end at once in the meantime waits.
+    ///
+    /// # Errors
+    /// That of `make`.
+    pub fn removes<T, E>(&self, make: impl FnOnce() -> Result<(T, Vec<PathBuf>), E>) -> Result<T, E> {
+        let mut removed = self.removed.lock().unwrap_or_else(PoisonError::into_inner);
+        let (made, paths) = make()?;
+        removed.extend(paths);
+        Ok(made)
     }
 
     /// From now on a first signal is only noted: who calls this looks at [`Stop::asked`] between steps.

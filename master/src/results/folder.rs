@@ -36,21 +36,20 @@ impl Folder {
     /// # Errors
     /// Another process has it ([`Error::Input`], with its number); it cannot be made or written into.
     pub fn claim(path: &Path, stop: &Stop) -> Result<Self, Error> {
-        let made = !path.exists();
-        fs::create_dir_all(path).map_err(Error::io(path))?;
-        let place = path.join(LOCK);
-        let lock = lock(&place).map_err(|error| match error {
-            Refused::Taken(process) => Error::Input(format!(
-                "{}: {process} is writing its results here: wait for its end, or choose another folder with --output",
-                path.display()
-            )),
-            Refused::Io(error) => Error::Io { path: place.clone(), source: error },
-        })?;
-        stop.removes(&place);
-        if made {
-            stop.removes(path);
-        }
-        Ok(Self { path: path.to_path_buf(), _lock: lock, made })
+        stop.removes(|| {
+            let made = !path.exists();
+            fs::create_dir_all(path).map_err(Error::io(path))?;
+            let place = path.join(LOCK);
+            let lock = lock(&place).map_err(|error| match error {
+                Refused::Taken(process) => Error::Input(format!(
+                    "{}: {process} is writing its results here: wait for its end, or choose another folder with --output",
+                    path.display()
+                )),
+                Refused::Io(error) => Error::Io { path: place.clone(), source: error },
+            })?;
+            let removed = [place].into_iter().chain(made.then(|| path.to_path_buf())).collect();
+            Ok((Self { path: path.to_path_buf(), _lock: lock, made }, removed))
+        })
     }
 
     /// Where it is.
