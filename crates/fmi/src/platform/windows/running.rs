@@ -71,12 +71,35 @@ static HEARS: OnceLock<Hear> = OnceLock::new();
 
 /// Calls `hear` with the number that a request to end has on Unix: Ctrl-C 2, Ctrl-Break 15, a console that closes 1.
 ///
+/// Another program cannot send these to one process alone, and not without a console. It sets the event `Local\ttb-end-ID`
+/// instead, where ID is the number of this process: that is Ctrl-C.
+///
 /// # Errors
-/// The system takes no handler.
+/// The system takes no handler, has no event, or no thread.
 pub fn watch_requests_to_end(hear: impl Fn(i32) + Send + Sync + 'static) -> io::Result<()> {
     let _ = HEARS.set(Box::new(hear));
     // SAFETY: a function that is there as long as the program.
-    if unsafe { api::SetConsoleCtrlHandler(Some(heard), 1) } == 0 { Err(io::Error::last_os_error()) } else { Ok(()) }
+    if unsafe { api::SetConsoleCtrlHandler(Some(heard), 1) } == 0 {
+        return Err(io::Error::last_os_error());
+    }
+    let name = api::wide(&format!(r"Local\ttb-end-{}", std::process::id()));
+    // SAFETY: a name that ends with 0; the event resets itself, each setting of it is one request.
+    let event = api::Owned::new(unsafe { api::CreateEventW(std::ptr::null(), 0, 0, name.as_ptr()) })?;
+    let wait = move || {
+        let event = event;
+        // SAFETY: an open handle.
+        while unsafe { api::WaitForSingleObject(event.0, api::INFINITE) } == 0 {
+            tell(2);
+        }
+    };
+    std::thread::Builder::new().name("requests to end".into()).spawn(wait)?;
+    Ok(())
+}
+
+fn tell(number: i32) {
+    if let Some(hear) = HEARS.get() {
+        hear(number);
+    }
 }
 
 unsafe extern "system" fn heard(request: u32) -> i32 {
@@ -85,9 +108,7 @@ unsafe extern "system" fn heard(request: u32) -> i32 {
         1 => 15,
         _ => 1,
     };
-    if let Some(hear) = HEARS.get() {
-        hear(number);
-    }
+    tell(number);
     // The program is ended once a handler comes back from the close of its console: it has some seconds for its step.
     if number == 1 {
         std::thread::sleep(std::time::Duration::from_secs(30));
