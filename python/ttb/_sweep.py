@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import html
 import os
-from concurrent.futures import ThreadPoolExecutor
+from concurrent.futures import FIRST_EXCEPTION, ThreadPoolExecutor, wait
 from itertools import product
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Iterable, Iterator, Mapping, Optional, Sequence, Union
 
 from ._errors import Failed
-from ._program import AnyPath
+from ._program import WAIT, AnyPath, end_calls
 from ._result import Result
 from ._run import run
 from ._scenario import Scenario, plain
@@ -112,11 +112,20 @@ def sweep(
 
     with ThreadPoolExecutor(workers or processors()) as pool:
         futures = [pool.submit(one, i) for i in range(len(every))]
+        waiting = set(futures)
         try:
+            while waiting:
+                done, waiting = wait(waiting, timeout=WAIT, return_when=FIRST_EXCEPTION)
+                for future in done:
+                    future.result()
             return Sweep(every, [future.result() for future in futures])
         except BaseException:
             for future in futures:
                 future.cancel()
+            # More than once: a call may be about to begin.
+            while waiting:
+                end_calls()
+                waiting = wait(waiting, timeout=0.2).not_done
             raise
 
 

@@ -3,8 +3,10 @@
 import json
 import math
 import os
+import signal
 import subprocess
 import sys
+import time
 
 import numpy
 import pandas
@@ -151,6 +153,42 @@ def test_a_sweep_runs_every_combination_and_one_that_fails_does_not_end_it(short
     assert "bad input" in swept._repr_html_() and len(swept.failed) == 2
     with pytest.raises(KeyError, match="nobody"):
         swept.rows("nobody")
+
+
+INTERRUPTED = """
+import sys, ttb
+try:
+    {}
+except KeyboardInterrupt:
+    sys.exit(130)
+"""
+
+
+def interrupt(arguments, *folders):
+    """Runs Python, and interrupts it alone, as an editor does, once every run has rows."""
+    environment = dict(os.environ, PYTHONPATH=str(REPOSITORY / "python"))
+    process = subprocess.Popen([sys.executable, *arguments], env=environment, stderr=subprocess.DEVNULL)
+    results, end = [folder / "results.csv" for folder in folders], time.monotonic() + 60
+    while not all(path.is_file() and path.stat().st_size > 100_000 for path in results) and time.monotonic() < end:
+        time.sleep(0.01)
+    process.send_signal(signal.SIGINT)
+    assert process.wait(timeout=30) == 130
+    for folder in folders:
+        summary = json.loads((folder / "summary.json").read_text())
+        assert summary["status"] == "interrupted" and 0 < summary["reached_s"] < 8.064
+
+
+def test_an_interrupted_run_keeps_its_results(tmp_path):
+    """KeyboardInterrupt once the program has written them; `python -m ttb` is the program."""
+    interrupt(["-c", INTERRUPTED.format("ttb.run(output='out')")], tmp_path / "out")
+    interrupt(["-m", "ttb", "run", "-o", "module"], tmp_path / "module")
+
+
+def test_an_interrupted_sweep_ends_all_runs_and_begins_no_other(tmp_path):
+    """Two at a time of three."""
+    call = "ttb.sweep(None, {'irregularity.seed': [1, 2, 3]}, workers=2, output='out')"
+    interrupt(["-c", INTERRUPTED.format(call)], tmp_path / "out/0001", tmp_path / "out/0002")
+    assert not (tmp_path / "out/0003").exists()
 
 
 def test_a_sweep_takes_the_changes_of_each_run(short):
