@@ -7,6 +7,7 @@ import subprocess
 import sys
 import zipfile
 from dataclasses import dataclass, replace
+from io import BytesIO
 from pathlib import Path
 
 from .version import ROOT, VERSION
@@ -136,8 +137,10 @@ def _cargo(target, *arguments, libraries=None):
 
 
 def _compress(targets, archive):
-    """The libraries of all FMUs and systems, under the names they get in the FMUs."""
-    with zipfile.ZipFile(archive, "w", zipfile.ZIP_DEFLATED, compresslevel=9) as zip:
+    """The libraries of all FMUs and systems, under the names they get in the FMUs. The same archive is not written again: each
+    program would be built anew."""
+    packed = BytesIO()
+    with zipfile.ZipFile(packed, "w", zipfile.ZIP_DEFLATED, compresslevel=9) as zip:
         for fmu, crate in FMUS.items():
             for target in targets:
                 built = _built(target) / "deps" / target.library.format(crate)
@@ -145,6 +148,8 @@ def _compress(targets, archive):
                 entry.compress_type = zipfile.ZIP_DEFLATED
                 entry.external_attr = 0o100644 << 16
                 zip.writestr(entry, built.read_bytes(), compresslevel=9)
+    if not archive.is_file() or archive.read_bytes() != packed.getvalue():
+        archive.write_bytes(packed.getvalue())
 
 
 def single_file(program, target, output):
