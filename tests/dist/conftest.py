@@ -119,3 +119,24 @@ def venv_with(wheel, folder):
 
 def has(*tools):
     return all(shutil.which(tool) for tool in tools)
+
+
+@pytest.fixture(scope="session")
+def wine(tmp_path_factory):
+    """Runs a program under Wine, in a prefix that stays in target/wine."""
+    prefix = (REPOSITORY / "target/wine").absolute()
+    environment = dict(os.environ, WINEPREFIX=str(prefix), WINEDEBUG="-all", WINEDLLOVERRIDES="mscoree,mshtml,winedbg.exe=", LC_ALL="C.UTF-8")
+    # By it programs for Windows tell that a shell of Unix has started them.
+    environment.pop("SHELL", None)
+    if not prefix.exists():
+        prefix.parent.mkdir(exist_ok=True)
+        subprocess.run(["wineboot", "--init"], check=True, env=environment, capture_output=True, timeout=300)
+
+    def run(*command, expect=0, cwd=None, timeout=300):
+        done = subprocess.run(["wine", *command], env=environment, cwd=cwd, capture_output=True, text=True, timeout=timeout, stdin=subprocess.DEVNULL)
+        assert done.returncode == expect, f"{command} ended with {done.returncode}\n{done.stdout}{done.stderr}"
+        return done
+
+    run.environment = environment
+    yield run
+    subprocess.run(["wineserver", "--kill"], env=environment, timeout=60)

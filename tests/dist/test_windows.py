@@ -1,50 +1,18 @@
-"""What leaves the house for Windows, under Wine: no real Windows was at hand.
+"""What leaves the house for Windows, under Wine: no real Windows was at hand."""
 
-Results differ from those of Linux by some units in the last place: `pow`, `exp` and `sin` of the C libraries differ.
-"""
-
-import csv
 import json
 import math
-import os
-import pty
 import subprocess
 import sys
-import time
 import zipfile
 
 import pytest
-from conftest import EXAMPLES, HOSTS, REPOSITORY, has, host_run, only
+from conftest import EXAMPLES, REPOSITORY, host_run, only
+from windows import SAME, assert_same, mingw, needs_wine, type_ctrl_c
 
-pytestmark = pytest.mark.skipif(not has("wine", "x86_64-w64-mingw32-gcc"), reason="mingw or Wine is missing")
+pytestmark = needs_wine
 # What every Windows has, since 10.
 OF_THE_SYSTEM = {"kernel32.dll", "ntdll.dll", "msvcrt.dll", "advapi32.dll", "userenv.dll", "ws2_32.dll", "bcryptprimitives.dll", "bcrypt.dll", "shell32.dll", "ole32.dll"}
-# Largest difference, relative to the largest value of a column.
-SAME = 1e-6
-
-
-def mingw(target, source, *options):
-    subprocess.run(["x86_64-w64-mingw32-gcc", "-O1", "-o", target, HOSTS / source, *options], check=True)
-    return target
-
-
-@pytest.fixture(scope="session")
-def wine(tmp_path_factory):
-    """Runs a program under Wine, in a prefix that stays in target/wine."""
-    prefix = (REPOSITORY / "target/wine").absolute()
-    environment = dict(os.environ, WINEPREFIX=str(prefix), WINEDEBUG="-all", WINEDLLOVERRIDES="mscoree,mshtml,winedbg.exe=", LC_ALL="C.UTF-8")
-    if not prefix.exists():
-        prefix.parent.mkdir(exist_ok=True)
-        subprocess.run(["wineboot", "--init"], check=True, env=environment, capture_output=True, timeout=300)
-
-    def run(*command, expect=0, cwd=None, timeout=300):
-        done = subprocess.run(["wine", *command], env=environment, cwd=cwd, capture_output=True, text=True, timeout=timeout, stdin=subprocess.DEVNULL)
-        assert done.returncode == expect, f"{command} ended with {done.returncode}\n{done.stdout}{done.stderr}"
-        return done
-
-    run.environment = environment
-    yield run
-    subprocess.run(["wineserver", "--kill"], env=environment, timeout=60)
 
 
 @pytest.fixture(scope="session")
@@ -67,23 +35,6 @@ def ttb(wine, scripts):
 @pytest.fixture(scope="session")
 def windows_host(scripts):
     return mingw(scripts / "host.exe", "host.c")
-
-
-def table(path):
-    """Columns of a CSV file."""
-    with open(path, newline="") as file:
-        rows = list(csv.reader(file))
-    return {name: [float(row[i]) for row in rows[1:]] for i, name in enumerate(rows[0])}
-
-
-def assert_same(found, expected):
-    """Same columns, same rows, and values as close as SAME."""
-    found, expected = table(found), table(expected)
-    assert list(found) == list(expected)
-    for name, values in expected.items():
-        size = max(map(abs, values))
-        worst = max(abs(a - b) for a, b in zip(found[name], values, strict=True))
-        assert worst <= SAME * size and math.isfinite(worst), f"{name}: {worst / size:.1e}"
 
 
 def test_the_libraries_need_nothing_but_windows(fmus, scripts):
@@ -180,20 +131,11 @@ def test_an_fmu_that_crashes_is_told_and_results_are_kept(ttb, fmus, tmp_path):
 
 @pytest.mark.parametrize("option", [[], ["--isolate=both"]], ids=["in one process", "isolated"])
 def test_ctrl_c_keeps_the_results_so_far(option, wine, scripts, tmp_path):
-    """Typed into a terminal, of which Wine makes a console: exit code 130."""
-    command = ["wine", scripts / "ttb.exe", "run", "-o", tmp_path, "--quiet", *option]
-    process, terminal = pty.fork()
-    if process == 0:
-        os.execvpe("wine", command, wine.environment)
-    results, end = tmp_path / "results.csv", time.monotonic() + 60
-    while not (results.is_file() and results.stat().st_size > 100_000) and time.monotonic() < end:
-        time.sleep(0.1)
-    os.write(terminal, b"\x03")
-    code = os.waitstatus_to_exitcode(os.waitpid(process, 0)[1])
-    os.close(terminal)
+    """Exit code 130."""
+    code = type_ctrl_c(wine, tmp_path / "results.csv", scripts / "ttb.exe", "run", "-o", tmp_path, "--quiet", *option)
     assert code == 130
     assert json.loads((tmp_path / "summary.json").read_text())["status"] == "interrupted"
-    assert results.read_text().count("\n") > 10
+    assert (tmp_path / "results.csv").read_text().count("\n") > 10
 
 
 def test_sizes(fmus, dist):
