@@ -4,6 +4,7 @@ TTB_BROWSER=1 python -m pytest test_page.py; pictures go into the folder $TTB_PI
 """
 
 import functools
+import hashlib
 import http.server
 import json
 import os
@@ -14,7 +15,8 @@ from pathlib import Path
 import pytest
 from browser import CHROMIUM, Browser
 from conftest import REPOSITORY, program_path
-from test_ui import started
+from test_foreign import MAP
+from test_ui import deck, started
 
 pytestmark = pytest.mark.skipif(
     not (os.environ.get("TTB_BROWSER") and CHROMIUM), reason="opt-in: TTB_BROWSER=1, Chromium"
@@ -140,6 +142,40 @@ def open_by_link(clean):
     clean.send("Page.navigate", url="about:blank")
     time.sleep(0.2)
     clean.open(linked)
+
+
+def test_a_bridge_fmu_is_run_at_every_speed_or_refused_with_the_reason(clean, address, examples, tmp_path):
+    told = "document.querySelector('#bridge-fmu-told').textContent"
+    if clean.evaluate("document.querySelector('meta[name=engine]').content") != "native":
+        assert clean.evaluate("document.querySelector('#bridge-fmu').disabled")
+        assert "ttb ui" in clean.evaluate(told)
+        return
+    scenario = json.loads((examples / "r1.json").read_text())
+    state = json.dumps({"scenario": scenario, "request": {"way": "coupled", "speeds": "90,100"}})
+    fragment = clean.evaluate(f"import('./files.js').then((files) => files.fragment({state}))")
+    clean.send("Page.navigate", url="about:blank")
+    time.sleep(0.2)
+    clean.open(address + fragment)
+    fmu = deck(tmp_path)
+    clean.click("#foreign summary")
+    clean.type("#bridge-fmu", str(fmu))
+    clean.type("#bridge-map", json.dumps(MAP))
+    clean.type("#speeds", "100,90")
+    clean.click("#compute")
+    computed(clean, 120)
+    assert clean.evaluate("document.querySelector('#done').textContent").startswith("2 runs with the FMU")
+    assert hashlib.sha256(fmu.read_bytes()).hexdigest() in clean.evaluate("document.querySelector('#bridge-file').textContent")
+    assert clean.evaluate("document.querySelectorAll('#charts svg').length") >= 1
+    reports = "[...document.querySelectorAll('button.report')].map((button) => button.textContent)"
+    assert clean.evaluate(reports) == ["Report, 90 km/h", "Report, 100 km/h"]
+    clean.evaluate("window.open = () => null")
+    clean.click("button.report")
+    assert int(clean.evaluate("document.documentElement.dataset.report")) > 10000
+    assert f"--bridge {fmu} --map map.json" in clean.evaluate("document.querySelector('#command').textContent")
+    # What cannot be: axle loads have no wheels for its deck.
+    clean.click("input[name=acts][value=loads]")
+    clean.click("#compute")
+    clean.wait("document.querySelector('#problems').textContent.includes('vehicles on their track')")
 
 
 def test_direction_and_limits_are_chosen_by_clicks(clean):

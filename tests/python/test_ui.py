@@ -2,6 +2,7 @@
 
 import concurrent.futures
 import contextlib
+import hashlib
 import http.client
 import json
 import re
@@ -9,10 +10,12 @@ import signal
 import socket
 import subprocess
 import time
+from pathlib import Path
 from urllib.parse import urlsplit
 
 import pytest
 from conftest import program_path
+from test_foreign import MAP, beam
 
 SPAN = {"length": 24, "first_frequency": 4.5, "mass": 15000}
 SCENARIO = {
@@ -22,6 +25,11 @@ SCENARIO = {
         "damping": {"type": "rayleigh", "ratio": 0.01},
     },
 }
+
+
+def deck(folder):
+    """R1's span as an FMU in C, with names, units and signs of its own."""
+    return beam(29720).write(folder)
 
 
 class Page:
@@ -200,6 +208,43 @@ def test_direction_and_limits_of_a_request_are_those_of_a_sweep(page, ttb, tmp_p
     # Two equal spans: what one sees first the other sees last.
     deepest = [max(abs(w) for row in film["displacement"] for w in row) for film in (there, back)]
     assert deepest[0] == pytest.approx(deepest[1], rel=1e-6)
+
+
+def test_a_bridge_fmu_of_another_program_is_run_and_judged_as_by_the_commands(page, ttb, examples, tmp_path):
+    scenario, fmu = (examples / "r1.json").read_text(), deck(tmp_path)
+    done = page.call("foreign", scenario=scenario, bridge=str(fmu), map=json.dumps(MAP))
+    assert "error" not in done, done
+    (tmp_path / "map.json").write_text(json.dumps(MAP))
+    ttb("run", examples / "r1.json", "--bridge", fmu, "--map", "map.json", "-o", "out", "--quiet", cwd=tmp_path)
+    ttb("report", "out", "--quiet", cwd=tmp_path)
+    expected = json.loads((tmp_path / "out" / "verdicts.json").read_text())
+    values = [[one["title"], one["value"], one["status"]] for one in expected["verdicts"]]
+    assert [[one["title"], one["value"], one["status"]] for one in done["verdicts"]["verdicts"]] == values
+    [bridge] = [one for one in done["inputs"] if one["role"] == "bridge"]
+    assert bridge == {"role": "bridge", "path": str(fmu), "sha256": hashlib.sha256(fmu.read_bytes()).hexdigest()}
+    assert "Deck.fmu" in done["report"] and "/ttb-ui-" not in done["said"]
+    # A file that was dropped on the page is kept under its name; a browser's path of it says nothing.
+    status, _, kept = page.ask("POST", f"{page.path}api/fmu", b"C:\\x/Deck.fmu\n" + fmu.read_bytes())
+    kept = Path(json.loads(kept)["path"])
+    assert status == 200 and kept.name == "Deck.fmu" and kept.read_bytes() == fmu.read_bytes()
+    for name in (b"", b"..", b"Deck"):
+        assert "must have a name" in page.ask("POST", f"{page.path}api/fmu", name + b"\n...")[2]
+    for wrong, told in [({"bridge": str(tmp_path / "none.fmu")}, "none.fmu"), ({"map": "{"}, "map.json"), ({"scenario": "{}"}, "scenario.json")]:
+        request = {"scenario": scenario, "bridge": str(fmu), "map": json.dumps(MAP), **wrong}
+        error = page.call("foreign", **request)["error"]
+        assert told in error and "/ttb-ui-" not in error, error
+
+
+def test_a_run_with_a_foreign_bridge_is_left_off(page, examples, tmp_path):
+    slow = json.loads((examples / "r1.json").read_text())
+    slow["time"]["step"] = 1e-6
+    request = {"scenario": json.dumps(slow), "bridge": str(deck(tmp_path)), "map": json.dumps(MAP)}
+    with concurrent.futures.ThreadPoolExecutor(1) as tab:
+        begun = tab.submit(page.ask, "POST", f"{page.path}api/foreign?job=deck", json.dumps(request))
+        time.sleep(1.5)
+        assert not begun.done(), begun.result()
+        page.ask("POST", f"{page.path}api/cancel?job=deck")
+        assert json.loads(begun.result(timeout=5)[2]) == {"stopped": True}
 
 
 def test_a_closed_tab_and_a_cancelled_job_leave_the_program_answering(page):

@@ -5,6 +5,7 @@ import { fields, tellFrequencies } from "./fields.js";
 import { arrange, build, changed, collect, fieldOf, fill, limits, toggleDifferent } from "./form.js";
 import { modes, rest, sketch } from "./sketch.js";
 import { clear, lean, shown } from "./results.js";
+import * as foreign from "./foreign.js";
 import { example, fragment, fromFragment, take } from "./files.js";
 
 const byId = (id) => document.getElementById(id);
@@ -83,6 +84,10 @@ function typed() {
 const judges = () => ({ names: limits(), own: shown.ownLimits });
 
 function command(request) {
+  if (foreign.given()) {
+    byId("command").textContent = foreign.command();
+    return;
+  }
   const words = ["ttb sweep scenario.json"];
   if (request.trains.length) words.push(`--trains ${request.trains.join(",")}`);
   if (request.speeds !== undefined) words.push(`--speeds ${request.speeds}`);
@@ -135,6 +140,13 @@ async function start(event) {
       tell(`${done} of ${total} runs`);
     };
     progress(0, plan.runs.length);
+    if (foreign.given()) {
+      const done = await foreign.compute(engine, scenario, request, plan, limits, progress, controller.signal);
+      tell(`${done.length} ${done.length === 1 ? "run" : "runs"} with the FMU in ${((performance.now() - begin) / 1000).toFixed(1)} s`);
+      byId("stale").hidden = true;
+      foreign.results(done, begin);
+      return;
+    }
     const records = await compute(engine, asked, plan, progress, controller.signal);
     const outcome = await engine.long("outcome", { asked, records: lean(records), limits }, controller.signal);
     tell(`${outcome.runs} ${outcome.runs === 1 ? "run" : "runs"} in ${((performance.now() - begin) / 1000).toFixed(1)} s`);
@@ -178,7 +190,11 @@ function ownLimits(text, name) {
 
 async function open(files) {
   try {
-    const taken = await take(files, collect(axles));
+    const isFmu = (file) => /\.fmu$/i.test(file.name);
+    for (const file of files.filter(isFmu)) await foreign.drop(engine, file);
+    const others = files.filter((file) => !isFmu(file));
+    if (!others.length) return typed();
+    const taken = await take(others, collect(axles));
     put(taken);
     if (taken.limits) ownLimits(taken.limits.text, taken.limits.name);
     tell("");
@@ -265,6 +281,7 @@ async function begin() {
     return;
   }
   build(shown.about);
+  foreign.arrange(engine);
   byId("engine").textContent = `Version ${shown.about.version}, computed ${engine.name}.`;
   listen();
   const linked = await fromFragment() ?? await given();

@@ -141,6 +141,12 @@ class Program {
     }
   }
 
+  // A file that the program keeps until it ends: its path.
+  async keep(file) {
+    const answer = await fetch("api/fmu", { method: "POST", body: new Blob([`${file.name}\n`, file]) });
+    return read(await answer.text());
+  }
+
   callAt(place, verb, request, signal) {
     return this.call(verb, request, signal);
   }

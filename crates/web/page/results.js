@@ -5,7 +5,7 @@ import { show } from "./film.js";
 import { zip } from "./zip.js";
 
 const byId = (id) => document.getElementById(id);
-const FACTORS = { "m/s2": [1, "m/s²"], m: [1000, "mm"], N: [0.001, "kN"], "N.m": [0.001, "kN m"], 1: [1, ""] };
+export const FACTORS = { "m/s2": [1, "m/s²"], m: [1000, "mm"], N: [0.001, "kN"], "N.m": [0.001, "kN m"], 1: [1, ""] };
 const WORDS = { exceeded: "exceeded", fulfilled: "fulfilled", informative: "for information", "not-judged": "not judged" };
 
 function save(name, content, type) {
@@ -25,7 +25,7 @@ export function clear() {
   byId("outcome").replaceChildren(element("p", { class: "hint" }, "Computing …"));
 }
 
-const amount = (value, unit) => {
+export const amount = (value, unit) => {
   const [factor, name] = FACTORS[unit] ?? [1, unit];
   return `${number(value === null ? NaN : value * factor)} ${name}`.trim();
 };
@@ -41,7 +41,7 @@ function results(of) {
   document.documentElement.dataset.computed = String(Math.round(performance.now() - of.begin));
 }
 
-function banner(judged) {
+export function banner(judged) {
   const bad = judged.filter((verdict) => verdict.status === "exceeded");
   const worst = judged.filter((verdict) => verdict.utilisation !== null).sort((a, b) => b.utilisation - a.utilisation)[0];
   const of = worst ? ` Governing: ${worst.title}, ${amount(worst.value, worst.unit)} of ${amount(worst.limit, worst.unit)} (${number(100 * worst.utilisation, 3)} %)${worst.train ? `, ${worst.train}` : ""}${worst.speed_km_h ? ` at ${number(worst.speed_km_h)} km/h` : ""}.` : "";
@@ -49,7 +49,7 @@ function banner(judged) {
   return element("p", { class: `banner ${bad.length ? "bad" : "good"}`, id: "verdict", role: "status" }, element("strong", {}, said), of);
 }
 
-function verdicts(all) {
+export function verdicts(all) {
   const head = ["Outcome", "Criterion", "Value", "Limit", "Train, speed"].map((text, i) => element("th", { scope: "col", class: i === 2 || i === 3 ? "number" : undefined }, text));
   const rows = all.filter((verdict) => verdict.status !== "not-judged").map((verdict) => element("tr", {},
     element("td", { class: `status ${verdict.status}` }, WORDS[verdict.status]),

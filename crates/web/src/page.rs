@@ -10,6 +10,7 @@ pub const FILES: &[(&str, &str, &str)] = &[
     ("fields.js", SCRIPT, include_str!("../page/fields.js")),
     ("files.js", SCRIPT, include_str!("../page/files.js")),
     ("film.js", SCRIPT, include_str!("../page/film.js")),
+    ("foreign.js", SCRIPT, include_str!("../page/foreign.js")),
     ("form.js", SCRIPT, include_str!("../page/form.js")),
     ("results.js", SCRIPT, include_str!("../page/results.js")),
     ("sketch.js", SCRIPT, include_str!("../page/sketch.js")),

@@ -5,8 +5,9 @@
 //!                     /TOKEN/api/VERB     a request of the page: JSON in, JSON out
 //! ```
 //!
-//! `gate` decides who is answered, `jobs` which computations go on, `serve` answers.
+//! `gate` decides who is answered, `jobs` which computations go on, `serve` answers; `foreign` runs bridges of other programs.
 
+mod foreign;
 mod gate;
 mod jobs;
 mod serve;

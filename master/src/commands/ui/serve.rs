@@ -8,6 +8,7 @@ use sha2::{Digest, Sha256};
 use tiny_http::{Method, Request as Http, Server, StatusCode};
 use ttb_web::{Engine, page};
 
+use super::foreign::{self, Dropped};
 use super::gate::{Asked, Gate, Request};
 use super::jobs::Jobs;
 use crate::signals::Stop;
@@ -48,6 +49,7 @@ pub struct Service {
     gate: Gate,
     engine: Engine,
     jobs: Jobs,
+    dropped: Dropped,
     policy: String,
     /// The page itself, which names the engine and the scenario.
     index: String,
@@ -69,7 +71,7 @@ impl Service {
             named += r#"<meta name="scenario" content="scenario.json">"#;
         }
         let index = index.replace(r#"<meta name="engine" content="wasm">"#, &named);
-        Self { gate, engine, jobs: Jobs::default(), policy: policy(), index, scenario }
+        Self { gate, engine, jobs: Jobs::default(), dropped: Dropped::default(), policy: policy(), index, scenario }
     }
 
     /// Answers until `stop` was asked.
@@ -135,7 +137,11 @@ impl Service {
             "cancel" => self.jobs.leave(job),
             _ => {
                 let stop = self.jobs.begin(job);
-                let answered = catch_unwind(AssertUnwindSafe(|| self.engine.call(verb, body, &stop)));
+                let answered = catch_unwind(AssertUnwindSafe(|| match verb {
+                    "foreign" => foreign::run(body, &stop),
+                    "fmu" => self.dropped.keep(body),
+                    _ => self.engine.call(verb, body, &stop),
+                }));
                 self.jobs.end(job);
                 let failed =
                     |_| br#"{"error":"the computation ended by an error of the program","problems":[]}"#.to_vec();
