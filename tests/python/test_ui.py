@@ -135,6 +135,22 @@ def test_the_page_asks_nothing_of_the_network(page):
     assert {"app.js", "chart.js", "style.css", "zip.js"} <= seen
 
 
+def test_no_request_waits_for_a_connection_that_says_nothing(page):
+    with contextlib.ExitStack() as idle:
+        for _ in range(50):
+            idle.enter_context(socket.create_connection(("127.0.0.1", page.port)))
+            begin = time.monotonic()
+            assert page.ask("GET", page.path)[0] == 200
+            assert time.monotonic() - begin < 5
+    # What is no request is not answered, and harms nobody.
+    for wrong in (b"\x16\x03\x01" + 100 * b"x", b"GET /" + 40000 * b"x"):
+        with socket.create_connection(("127.0.0.1", page.port), timeout=10) as other:
+            other.sendall(wrong + b"\r\n\r\n")
+            with contextlib.suppress(ConnectionResetError):
+                assert other.recv(1000) == b""
+    assert page.call("about")["version"]
+
+
 def test_problems_are_those_of_check_scenario(page, ttb, tmp_path):
     broken = json.loads(json.dumps(SCENARIO))
     broken["bridge"]["structure"]["spans"][1]["length"] = 24000

@@ -5,18 +5,18 @@
 //!                     /TOKEN/api/VERB     a request of the page: JSON in, JSON out
 //! ```
 //!
-//! `gate` decides who is answered, `jobs` which computations go on, `serve` answers; `foreign` runs bridges of other programs.
+//! `gate` decides who is answered, `jobs` which computations go on, `http` reads requests, `serve` answers; `foreign` runs bridges of other programs.
 
 mod foreign;
 mod gate;
+mod http;
 mod jobs;
 mod serve;
 
-use std::net::Ipv4Addr;
+use std::net::{Ipv4Addr, TcpListener};
 use std::path::Path;
 use std::process::{Command, Stdio};
 
-use tiny_http::Server;
 use ttb_web::Engine;
 use ttb_web::room::Room;
 
@@ -30,9 +30,9 @@ use crate::signals::Stop;
 pub fn ui(arguments: &Ui, stop: &Stop) -> Result<(), Error> {
     let scenario = arguments.scenario.as_deref().map(|path| ttb_scenario::read_text(path).map_err(Error::io(path)));
     let folder = arguments.scenario.as_deref().and_then(Path::parent).unwrap_or(Path::new("")).to_path_buf();
-    let listened = Server::http((Ipv4Addr::LOCALHOST, arguments.port));
-    let server = listened.map_err(|error| Error::Input(format!("--port {}: {error}", arguments.port)))?;
-    let port = server.server_addr().to_ip().map_or(arguments.port, |address| address.port());
+    let listened = TcpListener::bind((Ipv4Addr::LOCALHOST, arguments.port));
+    let listened = listened.and_then(|listener| Ok((listener.local_addr()?.port(), listener)));
+    let (port, listener) = listened.map_err(|error| Error::Input(format!("--port {}: {error}", arguments.port)))?;
     let gate = Gate::new(port);
     let address = gate.address();
     let threads = std::thread::available_parallelism().map_or(1, usize::from);
@@ -43,8 +43,7 @@ pub fn ui(arguments: &Ui, stop: &Stop) -> Result<(), Error> {
     if arguments.open {
         open(&address);
     }
-    service.serve(&server, stop);
-    Ok(())
+    service.serve(&listener, stop).map_err(Error::io(Path::new("the page's connection")))
 }
 
 /// Asks the desktop for its browser; without one the address that was printed is enough.

@@ -1,22 +1,17 @@
 //! Answers requests until a signal asks for the end.
 
-use std::io::{Read, Write};
+use std::net::TcpListener;
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::time::Duration;
 
 use sha2::{Digest, Sha256};
-use tiny_http::{Method, Request as Http, Server, StatusCode};
 use ttb_web::{Engine, page};
 
 use super::foreign::{self, Dropped};
 use super::gate::{Asked, Gate, Request};
+use super::http::{self, Request as Http};
 use super::jobs::Jobs;
 use crate::signals::Stop;
 
-/// Threads that answer: long computations, and what a page asks meanwhile.
-const THREADS: usize = 6;
-/// Between two looks at the signals.
-const PAUSE: Duration = Duration::from_millis(100);
 /// Most bytes of a request.
 const MOST: u64 = 1 << 30;
 const JSON: &str = "application/json";
@@ -75,47 +70,27 @@ impl Service {
     }
 
     /// Answers until `stop` was asked.
-    pub fn serve(&self, server: &Server, stop: &Stop) {
-        std::thread::scope(|scope| {
-            for _ in 0..THREADS {
-                scope.spawn(|| self.answer_all(server, stop));
-            }
-            while stop.asked().is_none() {
-                std::thread::sleep(PAUSE);
-                self.jobs.sweep(false);
-            }
-            self.jobs.sweep(true);
-        });
-    }
-
-    fn answer_all(&self, server: &Server, stop: &Stop) {
-        while stop.asked().is_none() {
-            let Ok(Some(mut request)) = server.recv_timeout(PAUSE) else { continue };
-            let answer = self.answer(&mut request);
-            // A tab that was closed takes no answer; that is no error.
-            let _ = write(&answer, &self.policy, request.into_writer());
-        }
+    ///
+    /// # Errors
+    /// The listener is broken.
+    pub fn serve(&self, listener: &TcpListener, stop: &Stop) -> std::io::Result<()> {
+        let answer = |request: &mut Http| written(&self.answer(request), &self.policy);
+        http::serve(listener, stop, &answer, &|| self.jobs.sweep(stop.asked().is_some()))
     }
 
     fn answer(&self, request: &mut Http) -> Answer {
-        let header = |name: &'static str| {
-            request.headers().iter().find(|header| header.field.equiv(name)).map(|header| header.value.as_str())
-        };
-        let posts = *request.method() == Method::Post;
-        if !posts && *request.method() != Method::Get {
+        let posts = request.method == "POST";
+        if !posts && request.method != "GET" {
             return text(405, "files are got, verbs are posted");
         }
-        let (host, origin, site) = (header("Host"), header("Origin"), header("Sec-Fetch-Site"));
-        match self.gate.pass(&Request { url: request.url(), posts, host, origin, site }) {
+        let [host, origin, site] = ["Host", "Origin", "Sec-Fetch-Site"].map(|name| request.header(name));
+        match self.gate.pass(&Request { url: &request.url, posts, host, origin, site }) {
             Err((status, why)) => text(status, why),
             Ok(Asked::File(name)) => self.file(&name),
-            Ok(Asked::Verb(verb, job)) => {
-                let mut body = Vec::new();
-                match request.as_reader().take(MOST + 1).read_to_end(&mut body) {
-                    Ok(_) if body.len() as u64 <= MOST => self.verb(&verb, &job, &body),
-                    _ => text(413, "the request is too large, or its end is missing"),
-                }
-            }
+            Ok(Asked::Verb(verb, job)) => match request.body(MOST) {
+                Some(body) => self.verb(&verb, &job, &body),
+                None => text(413, "the request is too large, or its end is missing"),
+            },
         }
     }
 
@@ -156,13 +131,18 @@ fn text(status: u16, why: &str) -> Answer {
     Answer { status, kind: "text/plain; charset=utf-8", body: format!("{why}\n").into_bytes() }
 }
 
-/// Writes an answer. Every connection ends with it: the server gives each one a thread, and of several that come at the same time
-/// one may have to wait until a thread is free, which those of a browser that are kept for later would not be.
-fn write(answer: &Answer, policy: &str, mut to: impl Write) -> std::io::Result<()> {
+/// An answer as it is sent; the connection ends with it.
+fn written(answer: &Answer, policy: &str) -> Vec<u8> {
     let Answer { status, kind, body } = answer;
-    let (reason, length) = (StatusCode(*status).default_reason_phrase(), body.len());
-    write!(to, "HTTP/1.1 {status} {reason}\r\nContent-Length: {length}\r\nConnection: close\r\n")?;
+    let reason = match status {
+        200 => "OK",
+        403 => "Forbidden",
+        404 => "Not Found",
+        405 => "Method Not Allowed",
+        _ => "Content Too Large",
+    };
     let headers = [
+        ("Connection", "close"),
         ("Content-Type", *kind),
         ("Content-Security-Policy", policy),
         ("Cache-Control", "no-store"),
@@ -171,12 +151,9 @@ fn write(answer: &Answer, policy: &str, mut to: impl Write) -> std::io::Result<(
         ("Referrer-Policy", "no-referrer"),
         ("X-Content-Type-Options", "nosniff"),
     ];
-    for (name, value) in headers {
-        write!(to, "{name}: {value}\r\n")?;
-    }
-    to.write_all(b"\r\n")?;
-    to.write_all(body)?;
-    to.flush()
+    let headers: String = headers.iter().map(|(name, value)| format!("{name}: {value}\r\n")).collect();
+    let head = format!("HTTP/1.1 {status} {reason}\r\nContent-Length: {}\r\n{headers}\r\n", body.len());
+    [head.as_bytes(), body].concat()
 }
 
 #[cfg(test)]
