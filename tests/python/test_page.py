@@ -178,6 +178,21 @@ def test_a_bridge_fmu_is_run_at_every_speed_or_refused_with_the_reason(clean, ad
     clean.wait("document.querySelector('#problems').textContent.includes('vehicles on their track')")
 
 
+def test_a_browser_without_vectors_is_told_what_would_do(browser, address):
+    """As one of before 2021 answers the probe."""
+    browser.send("Page.addScriptToEvaluateOnNewDocument", source="WebAssembly.validate = () => false")
+    for _ in range(2):  # The first page of a new window comes in between.
+        browser.send("Page.navigate", url=address)
+        time.sleep(0.5)
+    if browser.evaluate("document.querySelector('meta[name=engine]').content") == "native":
+        browser.wait("document.documentElement.dataset.ready === 'true'")
+        return
+    told = browser.wait("/There is no engine/.test(document.querySelector('#engine').textContent) && document.querySelector('#engine').textContent")
+    assert "128 bits" in told and "Safari from 16.4" in told and "ttb ui" in told
+    assert browser.evaluate("document.querySelector('#compute').disabled")
+    assert not [url for url in browser.requests() if url.endswith("engine.wasm")] and browser.complaints() == []
+
+
 def test_direction_and_limits_are_chosen_by_clicks(clean):
     two_spans(clean)
     clean.type("#trains", "hslm-a1")

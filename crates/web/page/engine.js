@@ -60,14 +60,20 @@ class Desk {
   }
 }
 
+// A function that gives the vector of an integer back: valid where there are vectors of 128 bits.
+const VECTORS = [0, 97, 115, 109, 1, 0, 0, 0, 1, 5, 1, 96, 0, 1, 123, 3, 2, 1, 0, 10, 10, 1, 8, 0, 65, 0, 253, 15, 253, 98, 11];
+
 class Workers {
   static async connect() {
+    if (!WebAssembly.validate(new Uint8Array(VECTORS))) {
+      throw new Error("this browser has no vectors of 128 bits in WebAssembly, by which the engine computes. Chrome and Edge have them from version 91 on, Firefox from 89, Safari from 16.4; the program `ttb ui` computes for any browser.");
+    }
     const [script, wasm] = await Promise.all([fetch("worker.js"), fetch("engine.wasm")]);
     if (!script.ok || !wasm.ok) throw new Error("engine.wasm is not beside this page: build it with tools/web, or open the page by `ttb ui`");
     const engine = new Workers();
     // Kept, so that nothing is asked of the network after loading.
     engine.module = await WebAssembly.compile(await wasm.arrayBuffer()).catch((error) => {
-      throw new Error(`this browser cannot run it, which needs WebAssembly with vectors of 128 bits (2023): ${error.message}`);
+      throw new Error(`this browser cannot run engine.wasm: ${error.message}`);
     });
     engine.script = URL.createObjectURL(new Blob([await script.text()], { type: "text/javascript" }));
     engine.workers = Math.max(1, Math.min(navigator.hardwareConcurrency || 2, 16));
