@@ -71,6 +71,8 @@ class Browser:
         self.process.wait()
 
     def size(self, width, height):
+        # A picture of the whole page has no scroll bar: one must not take width from what is measured.
+        self.send("Emulation.setScrollbarsHidden", hidden=True)
         self.send("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=1, mobile=False)
 
     def scheme(self, name):

@@ -24,7 +24,7 @@ export const FIELDS = {
     { id: "trains", label: "Trains", unit: "", request: "trains", told: "names, commas between them: hslm-a, ice2, en15528-d2x6", list: "known-trains", acts: "loads" },
     { id: "consist", label: "Vehicles", choices: [], help: "ice3 is a train of eight cars", acts: "vehicles" },
     { id: "cars-count", label: "How often", unit: "times", told: "1 for a whole train", acts: "vehicles" },
-    { id: "heading", label: "Direction", choices: [["forward", "from the bridge's begin"], ["backward", "from its end"], ["both", "both, one after the other"]] },
+    { id: "heading", label: "Direction", choices: [["forward", "from the begin"], ["backward", "from the end"], ["both", "both, in turn"]], help: "of the bridge" },
     { id: "speeds", label: "Speeds", unit: "km/h", request: "speeds", told: "speeds" },
   ],
   track: [
