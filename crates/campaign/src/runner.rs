@@ -87,18 +87,20 @@ impl<'a> Runner<'a> {
         Self { modal: modal.keeping(folder), one_axle: one_axle.keeping(folder), keep, ..self }
     }
 
-    /// What is refined.
-    pub fn refined(&self) -> Refined {
+    /// Quantities, each behind its filter, whose largest values govern and are refined.
+    pub fn keys(&self) -> Vec<(String, String)> {
         let keys = [(DECK_ACCELERATION, self.judged.label()), (DECK_DISPLACEMENT, RAW.into())];
+        keys.map(|(quantity, filter)| (quantity.to_string(), filter)).to_vec()
+    }
+
+    /// What is refined, and where: the resonances of all trains are sought.
+    pub fn refined(&self) -> Refined {
         let resonances = self.plan.trains.iter().map(|train| {
             let (train, frequency) = (force_train(train), self.facts.n0_hz);
             let found = train.map(|train| Signature::new(&train, DAMPING).resonances(WAVELENGTHS));
             found.into_iter().flatten().filter_map(|one| Some(3.6 * frequency? * one.length)).collect()
         });
-        Refined {
-            keys: keys.map(|(quantity, filter)| (quantity.to_string(), filter)).to_vec(),
-            resonances: resonances.collect(),
-        }
+        Refined { keys: self.keys(), resonances: resonances.collect() }
     }
 
     /// A governing run once more with its histories: vehicles as they are, axle loads step by step on a rigid track.

@@ -114,7 +114,7 @@ pub fn outcome(session: &Session, records: &Records, limits: &Limits) -> Result<
     let opened = Opened::new(&files)?;
     let verdicts = judge(&criteria, &opened.assessment.facts, &opened.results);
     let charts = charts(&runs, &opened, &verdicts, plan);
-    let governing = governing::of(&runs, &session.runner()?.refined().keys, records)?;
+    let governing = governing::of(&runs, &session.runner()?.keys(), records)?;
     let failed = records.iter().filter_map(|(id, record)| Some([id.clone(), record.error.clone()?]));
     let told = |one: governing::Governing| {
         let speed = one.run.speed_km_h.map_or_else(String::new, |speed| format!(" at {speed} km/h"));
@@ -190,16 +190,16 @@ pub fn dossier(
     date: String,
 ) -> Result<BTreeMap<String, String>, Fault> {
     let criteria: Criteria = limits.criteria()?;
-    let mut files = folder(session, records, compared, name)?;
+    let files = folder(session, records, compared, name)?;
     let opened = Opened::new(&files)?;
     let verdicts = judge(&criteria, &opened.assessment.facts, &opened.results);
-    let text = serde_json::to_string_pretty(&verdicts);
-    drop(opened);
-    files.files.insert("verdicts.json".into(), (text.map_err(|e| Fault::new(e.to_string()))? + "\n").into_bytes());
+    let text = serde_json::to_string_pretty(&verdicts).map_err(|error| Fault::new(error.to_string()))? + "\n";
     // The report lists the files that are there, its verdicts among them.
-    let page = ttb_dossier::page::page(&Opened::new(&files)?, &verdicts, &criteria.people, date)?;
+    let mut judged = files.clone();
+    judged.files.insert("verdicts.json".into(), text.into_bytes());
+    let page = ttb_dossier::page::page(&Opened { files: &judged, ..opened }, &verdicts, &criteria.people, date)?;
     let mut texts: BTreeMap<String, String> =
-        files.files.into_iter().map(|(name, bytes)| (name, String::from_utf8_lossy(&bytes).into_owned())).collect();
+        judged.files.into_iter().map(|(name, bytes)| (name, String::from_utf8_lossy(&bytes).into_owned())).collect();
     texts.insert("report.html".into(), page);
     Ok(texts)
 }
@@ -217,7 +217,7 @@ pub fn again(
     if plan.way == ttb_campaign::Way::Coupled {
         return Ok(Some(Vec::new()));
     }
-    let governing = governing::of(&runs(session, records)?, &runner.refined().keys, records)?;
+    let governing = governing::of(&runs(session, records)?, &runner.keys(), records)?;
     let mut again = Records::new();
     for (id, one) in runner.again_each(&governing, 1, stop) {
         let Some((record, _)) = one.map_err(Fault::new)? else { return Ok(None) };
