@@ -7,6 +7,7 @@ pub mod beam;
 pub mod damping;
 pub mod dense;
 pub mod frame;
+pub mod near;
 pub mod newmark;
 pub mod pool;
 pub mod reduction;
