@@ -17,12 +17,12 @@
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use ttb_dynamics::damping::modal_correction;
-use ttb_dynamics::dense::Dense;
 use ttb_dynamics::newmark::Newmark;
 use ttb_sparse::modes::Modes;
 use ttb_sparse::vector::{add_scaled, dot};
 use ttb_sparse::{Factor, FactorError, Pencil, Product};
 
+use crate::compliance::Compliance;
 use crate::lanes::{Lanes, RUNS};
 use crate::law::Law;
 use crate::lazy::Lazy;
@@ -203,7 +203,7 @@ impl Step for FullStep {
         base.load = load;
     }
 
-    fn compliance(&self) -> Option<&Dense> {
+    fn compliance(&self) -> Option<&Compliance> {
         self.lazy.as_ref().map(Lazy::compliance)
     }
 

@@ -15,6 +15,7 @@ use ttb_sparse::Factor;
 use ttb_sparse::supernodal::{Numbers, Pattern};
 use ttb_sparse::sweeps::{LANES, Which};
 
+use crate::compliance::Compliance;
 use crate::rows::Rows;
 use crate::system::{Base, Work};
 
@@ -27,7 +28,7 @@ pub struct Lazy {
     of_rows: Vec<u32>,
     /// Panels that B reaches.
     of_supports: Vec<u32>,
-    compliance: Dense,
+    compliance: Compliance,
     /// RΦ diag(correction), with modal damping.
     corrected: Vec<Vec<f64>>,
 }
@@ -55,7 +56,14 @@ impl Lazy {
             }
         }
         let corrected = seen.iter().zip(corrections).map(|(r, c)| r.iter().map(|r| c * r).collect()).collect();
-        Some(Self { rows: permuted, supports, of_rows, of_supports, compliance, corrected })
+        Some(Self {
+            rows: permuted,
+            supports,
+            of_rows,
+            of_supports,
+            compliance: Compliance::Dense(compliance),
+            corrected,
+        })
     }
 
     /// Rows of B.
@@ -95,8 +103,13 @@ impl Lazy {
     }
 
     /// S: what the outside sees of unit forces on the supports.
-    pub fn compliance(&self) -> &Dense {
+    pub fn compliance(&self) -> &Compliance {
         &self.compliance
+    }
+
+    /// S alone.
+    pub fn into_compliance(self) -> Compliance {
+        self.compliance
     }
 
     /// From p in `load` to y there, and R K̂⁻¹p.

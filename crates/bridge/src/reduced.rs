@@ -1,18 +1,18 @@
-//! Modal coordinates: u = Φη over modes and pseudo-modes, every equation alone.
+//! Coordinates that stand alone: u = Φη over modes and pseudo-modes, or modes and what [`crate::local`] adds.
 //!
 //! ```text
 //! m η̈_j + m c_j η̇_j + k ω_j² η_j = φ_jᵀ f      c_j = α + β (k/m) ω_j²   or   2ζω_j
 //! ```
 //!
-//! What the outside sees is dense here: R φ_j of every coordinate. A step reads these once: as the equations stand alone,
+//! What the outside sees of every coordinate, R φ_j, is dense, or few numbers where its motion is local. A step reads these once: as the equations stand alone,
 //! one pass ends a step and begins the next, coordinate by coordinate. Repetitions read S.
 
 use std::sync::Arc;
 
-use ttb_dynamics::dense::Dense;
 use ttb_dynamics::newmark::{Motion, Newmark};
 use ttb_sparse::FactorError;
 
+use crate::compliance::Compliance;
 use crate::law::Law;
 use crate::rows::Rows;
 use crate::system::{Base, Step, System, Work};
@@ -77,7 +77,7 @@ struct ReducedStep {
     /// Reciprocals of K̂, one a coordinate.
     inverse: Vec<f64>,
     rows: Arc<Rows>,
-    compliance: Option<Dense>,
+    compliance: Option<Compliance>,
 }
 
 impl ReducedStep {
@@ -119,7 +119,7 @@ impl Step for ReducedStep {
         }
     }
 
-    fn compliance(&self) -> Option<&Dense> {
+    fn compliance(&self) -> Option<&Compliance> {
         self.compliance.as_ref()
     }
 

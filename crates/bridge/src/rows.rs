@@ -2,14 +2,16 @@
 
 use ttb_dynamics::dense::Dense;
 
+use crate::compliance::Compliance;
 use crate::deck::Row;
+use crate::local::Local;
 
 /// The entries of a vector that are not zero.
 pub fn sparse(values: &[f64]) -> Row {
     (0..).zip(values.iter().copied()).filter(|(_, value)| *value != 0.0).collect()
 }
 
-/// A list of rows: sparse over degrees of freedom, or dense over modal coordinates φ_j.
+/// A list of rows: sparse over degrees of freedom, or by the coordinates φ_j of a reduced model.
 #[derive(Clone, Debug)]
 pub enum Rows {
     /// Compressed: row i has the columns and weights from `starts[i]` to `starts[i + 1]`.
@@ -25,6 +27,8 @@ pub enum Rows {
     Modal(Dense),
     /// The same in single precision: of a reduced model, whose error is greater.
     Single(Dense<f32>),
+    /// Of modes and local coordinates.
+    Local(Local),
 }
 
 impl Rows {
@@ -46,6 +50,7 @@ impl Rows {
             Self::Sparse { starts, .. } => starts.len() - 1,
             Self::Modal(shapes) => shapes.columns(),
             Self::Single(shapes) => shapes.columns(),
+            Self::Local(local) => local.rows(),
         }
     }
 
@@ -58,7 +63,7 @@ impl Rows {
     pub fn columns(&self, i: usize) -> &[u32] {
         match self {
             Self::Sparse { starts, columns, .. } => &columns[starts[i] as usize..starts[i + 1] as usize],
-            Self::Modal(_) | Self::Single(_) => &[],
+            Self::Modal(_) | Self::Single(_) | Self::Local(_) => &[],
         }
     }
 
@@ -66,7 +71,7 @@ impl Rows {
     pub fn weights(&self, i: usize) -> &[f64] {
         match self {
             Self::Sparse { starts, weights, .. } => &weights[starts[i] as usize..starts[i + 1] as usize],
-            Self::Modal(_) | Self::Single(_) => &[],
+            Self::Modal(_) | Self::Single(_) | Self::Local(_) => &[],
         }
     }
 
@@ -79,6 +84,7 @@ impl Rows {
             }
             Self::Modal(shapes) => u.iter().enumerate().map(|(j, u)| shapes.row(j)[i] * u).sum(),
             Self::Single(shapes) => u.iter().enumerate().map(|(j, u)| f64::from(shapes.row(j)[i]) * u).sum(),
+            Self::Local(local) => local.dot(i, u),
         }
     }
 
@@ -86,14 +92,14 @@ impl Rows {
     pub fn multiply(&self, u: &[f64], r: &mut [f64]) {
         match self {
             Self::Sparse { .. } => r.iter_mut().enumerate().for_each(|(i, r)| *r = self.dot(i, u)),
-            Self::Modal(_) | Self::Single(_) => {
+            Self::Modal(_) | Self::Single(_) | Self::Local(_) => {
                 r.fill(0.0);
                 self.fold(&[], |j, _| [u[j]], [r]);
             }
         }
     }
 
-    /// load ← load + Bᵀ f, B the first rows, as many as there are forces.
+    /// load ← load + Bᵀ f, B the first rows, as many as there are forces; of local coordinates what drives them.
     pub fn add_transposed(&self, f: &[f64], load: &mut [f64]) {
         match self {
             Self::Sparse { .. } => {
@@ -102,7 +108,7 @@ impl Rows {
                     row.for_each(|(&column, weight)| load[column as usize] += weight * f);
                 }
             }
-            Self::Modal(_) | Self::Single(_) => {
+            Self::Modal(_) | Self::Single(_) | Self::Local(_) => {
                 let add = |j: usize, p: f64| {
                     load[j] += p;
                     []
@@ -118,15 +124,17 @@ impl Rows {
             Self::Sparse { .. } => {}
             Self::Modal(shapes) => shapes.fold(x, weights, y),
             Self::Single(shapes) => shapes.fold(x, weights, y),
+            Self::Local(local) => local.fold(x, weights, y),
         }
     }
 
     /// R Φ diag(w) (BΦ)ᵀ, B the first `supports` rows; none for sparse rows.
-    pub fn compliance(&self, w: &[f64], supports: usize) -> Option<Dense> {
+    pub fn compliance(&self, w: &[f64], supports: usize) -> Option<Compliance> {
         match self {
             Self::Sparse { .. } => None,
-            Self::Modal(shapes) => Some(shapes.weighted_gram(w, supports)),
-            Self::Single(shapes) => Some(shapes.weighted_gram(w, supports)),
+            Self::Modal(shapes) => Some(Compliance::Dense(shapes.weighted_gram(w, supports))),
+            Self::Single(shapes) => Some(Compliance::Dense(shapes.weighted_gram(w, supports))),
+            Self::Local(local) => Some(Compliance::Near(local.compliance(w))),
         }
     }
 

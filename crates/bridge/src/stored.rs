@@ -13,6 +13,7 @@ use ttb_sparse::raw::Raw;
 
 use crate::assembled::Monitor;
 use crate::full::Full;
+use crate::local::Local;
 use crate::reduced::Reduced;
 use crate::reduction::Accuracy;
 use crate::rows::Rows;
@@ -21,7 +22,7 @@ use crate::system::System;
 /// Name of the file.
 pub const FILE: &str = "bridge.bin";
 /// Changes when the layout does.
-const VERSION: u32 = 3;
+const VERSION: u32 = 4;
 
 /// The file's content (postcard's format).
 #[derive(Serialize, Deserialize)]
@@ -47,6 +48,7 @@ enum Equations {
     Full { raw: Raw, modes: Vec<Vec<f64>>, starts: Vec<u32>, columns: Vec<u32>, weights: Vec<f64> },
     Modes { omega2: Vec<f64>, shapes: Dense },
     Reduced { omega2: Vec<f64>, shapes: Dense<f32> },
+    Local { omega2: Vec<f64>, local: Local },
 }
 
 impl Equations {
@@ -72,7 +74,7 @@ pub enum Source {
         /// Shapes of the modes that modal damping needs.
         shapes: Vec<Vec<f64>>,
     },
-    /// Modal coordinates.
+    /// Coordinates that stand alone.
     Reduced {
         /// ω² of the coordinates, (rad/s)².
         omega2: Vec<f64>,
@@ -103,6 +105,9 @@ impl Stored {
             }
             (Source::Reduced { omega2 }, Rows::Single(shapes)) => {
                 Equations::Reduced { omega2: omega2.clone(), shapes: shapes.clone() }
+            }
+            (Source::Reduced { omega2 }, Rows::Local(local)) => {
+                Equations::Local { omega2: omega2.clone(), local: local.clone() }
             }
             // Rows are sparse over degrees of freedom, modal over coordinates.
             _ => Equations::NONE,
@@ -158,6 +163,7 @@ impl Stored {
             }
             Equations::Modes { omega2, shapes } => modal(omega2, Rows::Modal(shapes))?,
             Equations::Reduced { omega2, shapes } => modal(omega2, Rows::Single(shapes))?,
+            Equations::Local { omega2, local } => modal(omega2, Rows::Local(local))?,
         };
         let seen = self.points.iter().flat_map(|point| [Some(point.motion), point.moment]).flatten();
         let rows = restored.rows.len();
@@ -172,12 +178,13 @@ fn damaged(why: &str) -> ModelError {
     ModelError(format!("{FILE} is damaged: {why}"))
 }
 
-/// A system in modal coordinates.
+/// A system in coordinates that stand alone.
 fn modal(omega2: Vec<f64>, rows: Rows) -> Result<Restored, ModelError> {
     let whole = match &rows {
         Rows::Sparse { .. } => false,
         Rows::Modal(shapes) => shapes.is_whole(omega2.len()),
         Rows::Single(shapes) => shapes.is_whole(omega2.len()),
+        Rows::Local(local) => local.is_whole(omega2.len()),
     };
     if !whole {
         return Err(damaged("rows do not fit the coordinates"));

@@ -14,14 +14,14 @@
 //! often the step is repeated.
 //!
 //! A [`System`] holds what no parameter touches (K₀, M₀, modes); a [`Step`] what belongs to one step size. There are two:
-//! all degrees of freedom ([`crate::full`]) and modal coordinates ([`crate::reduced`]).
+//! all degrees of freedom ([`crate::full`]) and coordinates that stand alone ([`crate::reduced`]).
 
 use std::sync::Arc;
 
-use ttb_dynamics::dense::Dense;
 use ttb_dynamics::newmark::{Motion, Newmark};
 use ttb_sparse::FactorError;
 
+use crate::compliance::Compliance;
 use crate::law::Law;
 use crate::rows::Rows;
 
@@ -44,7 +44,7 @@ pub struct Base {
 
 impl Base {
     /// r₁, ṙ₁ and, of the monitored points, r̈₁ under the forces f₁ through S.
-    pub fn answer(&self, compliance: &Dense, newmark: &Newmark, forces: &[f64], end: &mut Motion) {
+    pub fn answer(&self, compliance: &Compliance, newmark: &Newmark, forces: &[f64], end: &mut Motion) {
         let (rows, monitors) = (self.free.u.len(), self.free.a.len());
         let [a0, a1, ..] = newmark.a;
         [&mut end.u, &mut end.v, &mut end.a].into_iter().for_each(|r| r.resize(rows, 0.0));
@@ -133,7 +133,7 @@ pub trait Step: Send + Sync {
     fn begin(&self, base: &mut Base, work: &mut Work);
 
     /// S, where repetitions go through it.
-    fn compliance(&self) -> Option<&Dense>;
+    fn compliance(&self) -> Option<&Compliance>;
 
     /// u₁ under the forces f₁.
     fn solve(&self, base: &Base, forces: &[f64], u: &mut Vec<f64>, work: &mut Work);

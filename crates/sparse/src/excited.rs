@@ -31,6 +31,15 @@ pub struct Ritz {
     coordinates: Mat<f64>,
 }
 
+impl Ritz {
+    /// Those of the columns `kept`.
+    fn of(kept: &[usize], values: &[f64], vectors: &Mat<f64>) -> Self {
+        let omega2 = kept.iter().map(|&j| 1.0 / values[j]).collect();
+        let coordinates = Mat::from_fn(vectors.nrows(), kept.len(), |i, j| vectors[(i, kept[j])]);
+        Self { omega2, coordinates }
+    }
+}
+
 impl<'a> Excited<'a> {
     /// Starts from mixtures of the loads; `loads` are rows of weights on degrees of freedom.
     pub fn new(pencil: &'a Pencil, stiffness: &'a Factor, loads: &[Vec<(u32, f64)>]) -> Self {
@@ -79,11 +88,10 @@ impl<'a> Excited<'a> {
             }
             first = false;
             let p = self.dimension();
-            let t = Mat::from_fn(p, p, |i, j| self.0.projected(i, j));
-            let Ok(eigen) = t.self_adjoint_eigen(Side::Lower) else {
-                return Ritz { omega2: Vec::new(), coordinates: Mat::zeros(p, 0) };
-            };
-            let (values, vectors) = (eigen.S().column_vector(), eigen.U());
+            let (values, vectors) = self.eigen();
+            if values.len() < p {
+                return Ritz::of(&[], &values, &vectors);
+            }
             let complete = self.0.is_closed();
             // Ascending θ: the highest come last.
             let found =
@@ -92,10 +100,25 @@ impl<'a> Excited<'a> {
             let all = wanted.iter().all(|&j| found(j)) && wanted.len() < p;
             if all || complete || p >= most {
                 let kept: Vec<usize> = wanted.into_iter().take_while(|&j| found(j)).collect();
-                let omega2 = kept.iter().map(|&j| 1.0 / values[j]).collect();
-                let coordinates = Mat::from_fn(p, kept.len(), |i, j| vectors[(i, kept[j])]);
-                return Ritz { omega2, coordinates };
+                return Ritz::of(&kept, &values, &vectors);
             }
+        }
+    }
+
+    /// All that the space so far holds up to `highest` (rad/s): the modes, and above them vectors that each stand for several.
+    pub fn vectors(&self, highest: f64) -> Ritz {
+        let (values, vectors) = self.eigen();
+        let kept: Vec<usize> = (0..values.len()).rev().take_while(|&j| values[j] * highest * highest >= 1.0).collect();
+        Ritz::of(&kept, &values, &vectors)
+    }
+
+    /// θ, ascending, and s of the space so far; none where they cannot be computed.
+    fn eigen(&self) -> (Vec<f64>, Mat<f64>) {
+        let p = self.dimension();
+        let t = Mat::from_fn(p, p, |i, j| self.0.projected(i, j));
+        match t.self_adjoint_eigen(Side::Lower) {
+            Ok(eigen) => (eigen.S().column_vector().iter().copied().collect(), eigen.U().to_owned()),
+            Err(_) => (Vec::new(), Mat::zeros(p, 0)),
         }
     }
 
