@@ -289,6 +289,7 @@ async function begin() {
   else changed();
   touched.clear();
   document.documentElement.dataset.ready = "true";
+  engine.warm?.();
 }
 
 begin();

@@ -63,6 +63,11 @@ class Desk {
 // A function that gives the vector of an integer back: valid where there are vectors of 128 bits.
 const VECTORS = [0, 97, 115, 109, 1, 0, 0, 0, 1, 5, 1, 96, 0, 1, 123, 3, 2, 1, 0, 10, 10, 1, 8, 0, 65, 0, 253, 15, 253, 98, 11];
 
+const SMALL = {
+  train: { cars: ["ice3"], speed: { km_h: 150 } },
+  bridge: { structure: { type: "beams", spans: [{ length: 24, first_frequency: 4.5, mass: 15000 }] }, damping: { type: "rayleigh", ratio: 0.01 } },
+};
+
 class Workers {
   static async connect() {
     if (!WebAssembly.validate(new Uint8Array(VECTORS))) {
@@ -83,6 +88,22 @@ class Workers {
     for (const desk of engine.pool) desk.start();
     engine.name = `in this browser, ${engine.workers} ${engine.workers > 1 ? "workers" : "worker"}`;
     return engine;
+  }
+
+  // A browser translates WebAssembly twice: at first quickly, later well what is used much. A small sweep in every worker, while
+  // the user types, has that behind it when the first real one begins.
+  warm() {
+    const asked = { scenario: JSON.stringify(SMALL), trains: ["hslm-a1", "hslm-a10"], speeds: "150:190:5", way: "auto", heading: "forward" };
+    for (const desk of this.pool) {
+      const ask = async (verb, request) => read(await desk.text(verb, JSON.stringify({ asked, ...request })));
+      const sweep = async () => {
+        const plan = await ask("plan", { workers: 1 });
+        const records = await ask("runs", { runs: plan.runs });
+        await ask("dossier", { records, limits: {}, name: "", date: "" });
+      };
+      // Nothing depends on it.
+      sweep().catch(() => {});
+    }
   }
 
   make() {
