@@ -16,16 +16,16 @@
 //! ```
 //!
 //! The second line puts the modes ωⱼ right that are known: there it is exact for every σ. At σₐ its bracket is zero, so that
-//! vectors that only resemble modes may be added, too. What lies above has the relative
-//! error Πₐ(σ − σₐ)/(σₐ + λ) Πᵢ(λ − λᵢ)/(λᵢ + σ), λ = ω². Every term 1/(λ + σ) is an oscillator, so that all are
-//! [`crate::reduced`]'s coordinates:
+//! vectors that only resemble modes may be added, too. What lies above has the relative error
+//! Πₐ(σ − σₐ)/(σₐ + λ) Πᵢ(λ − λᵢ)/(λᵢ + σ), λ = ω². Every term 1/(λ + σ) is a damped oscillator, so that the model is stable;
+//! that it never gives energy away is not certain, as the Gᵢ may be indefinite. All terms are [`crate::reduced`]'s coordinates:
 //!
 //! ```text
 //! ηⱼ, ξⱼᵢ driven by φⱼᵀf,  xᵢ by f itself        r = Σⱼ φⱼ(ηⱼ − Σᵢ gⱼᵢ ξⱼᵢ) + Σᵢ Gᵢ xᵢ
 //! ```
 //!
-//! (The expression of H by Gᵢ is the skeleton of a Cauchy kernel: Antoulas, Approximation of Large-Scale Dynamical Systems,
-//! 2005, section 4.5 on Loewner matrices; that a structure's fast motion fades away quickly is Saint-Venant's principle.)
+//! (Rational interpolation of a transfer function: Antoulas, Approximation of Large-Scale Dynamical Systems, 2005. Poles and
+//! their places are our own choice.)
 
 use serde::{Deserialize, Serialize};
 use ttb_dynamics::dense::Dense;

@@ -6,7 +6,7 @@ use common::{GIRDER, Train, drive, get, girder, girder_spec, outputs, point, ste
 use ttb_bridge::Bridge;
 use ttb_contract::{Instance, Model as _};
 use ttb_scenario::spec::BridgeSpec;
-use ttb_scenario::types::{Direction, Point, Reduction};
+use ttb_scenario::types::{Damping, Direction, Point, RayleighAt, Reduction};
 
 /// Places of the supports: so many that pseudo-modes would be too many.
 fn stations() -> Vec<f64> {
@@ -153,4 +153,13 @@ fn steps_repeat_bit_for_bit_also_in_a_packed_bridge() {
         let error = Bridge::load(folder.path()).err().expect("a damaged file").to_string();
         assert!(error.contains("bridge.bin") && error.contains("damaged"), "{error}");
     }
+}
+
+#[test]
+fn where_modes_do_not_overlap_pseudo_modes_are_made() {
+    let damping = Damping::Rayleigh { ratio: 0.005, at: RayleighAt::Hz([4.0, 40.0]) };
+    let bridge = Bridge::new(reduced(&BridgeSpec { damping, ..in_space() }, 60.0)).unwrap();
+    let accuracy = bridge.accuracy().unwrap();
+    assert!(accuracy.local_poles == 0 && accuracy.pseudo_modes > 0, "{accuracy:?}");
+    assert!(accuracy.to_string().ends_with("pseudo-modes"));
 }

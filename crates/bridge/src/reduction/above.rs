@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use ttb_dynamics::dense::Dense;
 use ttb_dynamics::near::Near;
+use ttb_dynamics::newmark::Newmark;
 use ttb_dynamics::reduction::{Answers, Shifted, reduce};
 use ttb_sparse::excited::{Excited, Ritz};
 use ttb_sparse::{Factor, FactorError, Pencil};
@@ -11,25 +12,29 @@ use ttb_sparse::{Factor, FactorError, Pencil};
 use super::Supports;
 use crate::compliance::Compliance;
 use crate::deck::Row;
+use crate::law::Law;
 use crate::lazy::Lazy;
 use crate::local::Local;
 use crate::rows::Rows;
 
-/// Up to so many forces pseudo-modes are made: three times as many vectors, about three times as accurate as poles.
+/// Up to so many forces pseudo-modes are made: up to three vectors a force, and errors several times smaller.
 const MANY: usize = 600;
+/// Poles stand for many modes, which must overlap: damping ratio at the modes' highest frequency that this takes.
+const OVERLAP: f64 = 0.02;
 /// Pseudo-modes with a smaller share in every compliance are left out.
 const NEGLIGIBLE: f64 = 1e-6;
 /// Numbers of Gᵢ/λᵢ below this part of the geometric mean of H at both supports are left out.
 const FAR: f64 = 1e-3;
-/// The first pole lies above the modes by this factor in ω².
-const FIRST_POLE: f64 = 1.3;
-/// The σₐ beyond that of a step, and the last pole's ω², in multiples of a step's σ.
+/// About the ratio of neighbouring σₐ up to that of a step.
+const RATIO: f64 = 4.0;
+/// The σₐ beyond, in multiples of a step's.
 const BEYOND: [f64; 3] = [4.0, 16.0, 64.0];
+/// The first pole lies above the modes by this factor in ω²; the others follow in equal ratios.
+const FIRST_POLE: f64 = 1.3;
+/// The last pole's λ in multiples of the last σₐ.
+const LAST_POLE: f64 = 2.0;
 /// Vectors that are no modes yet are taken up to this multiple of the modes' highest frequency.
 const REACH: f64 = 4.0;
-/// Ratio of neighbouring σₐ.
-const RATIO: f64 = 4.0;
-const LAST_POLE: f64 = 128.0;
 
 /// What is sampled of the large model before modes are sought.
 pub enum Above {
@@ -52,7 +57,7 @@ pub struct Coordinates {
 }
 
 impl Above {
-    /// Samples the model between statics and a step, whose combination of K and M is given, for modes up to `hertz` or more.
+    /// Samples the model between statics and a step for modes up to `hertz` or more.
     ///
     /// # Errors
     /// A combination is not positive definite.
@@ -61,12 +66,14 @@ impl Above {
         stiffness: &Factor,
         rows: &[Row],
         supports: Supports,
-        [c_k, c_m]: [f64; 2],
+        (law, newmark): (&Law, &Newmark),
         hertz: f64,
     ) -> Result<Self, FactorError> {
+        let [c_k, c_m] = law.effective(newmark);
         let (highest, step) = (std::f64::consts::TAU * hertz, c_m / c_k);
+        let overlap = 0.5 * (law.alpha / highest + law.beta * highest) >= OVERLAP;
         // A small model has no factor by panels, which the samples need.
-        if supports.ports > MANY.max(supports.stations.len()) && stiffness.panels().is_some() {
+        if overlap && supports.ports > MANY.max(supports.stations.len()) && stiffness.panels().is_some() {
             return Self::samples(pencil, rows, supports.ports, highest * highest, step);
         }
         // Between statics and a step, on a logarithmic scale.
@@ -109,7 +116,7 @@ impl Above {
             }
             Self::Samples(samples) => {
                 let first = FIRST_POLE * highest * highest;
-                let last = samples.last().map_or(first, |(sigma, _)| sigma * LAST_POLE / BEYOND[2]).max(2.0 * first);
+                let last = samples.last().map_or(first, |(sigma, _)| sigma * LAST_POLE).max(2.0 * first);
                 let ratio = (last / first).powf(1.0 / (samples.len() - 1).max(1) as f64);
                 let poles: Vec<f64> = (0..samples.len()).map(|i| first * ratio.powi(i as i32)).collect();
                 // T101 stays right at the σₐ with any vectors: those that are no modes yet show what resonates above.

@@ -114,7 +114,7 @@ pub fn build(
     let truth = probe(&*full, &sparse, supports, pencil.ndof(), newmark.h);
     drop(full);
     let mut hertz = wish.highest_frequency.unwrap_or(FIRST);
-    let above = Above::new(pencil, stiffness, rows, supports, law.effective(&newmark), hertz).map_err(failed)?;
+    let above = Above::new(pencil, stiffness, rows, supports, (law, &newmark), hertz).map_err(failed)?;
     let mut excited = Excited::new(pencil, stiffness, &rows[..ports]);
     loop {
         let ritz = excited.modes(std::f64::consts::TAU * hertz, MOST);

@@ -174,7 +174,7 @@ pub enum ModelChoice {
 }
 
 /// Solving in modes and pseudo-modes that answer static loads and single steps exactly; in space, above 600 forces of the
-/// track, in modes and local poles that answer single steps exactly.
+/// track and where damping is not light, in modes and local poles that answer single steps exactly.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[schemars(deny_unknown_fields)]
 #[serde(default)]
