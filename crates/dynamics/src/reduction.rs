@@ -24,7 +24,7 @@ use crate::dense::Dense;
 use ttb_sparse::Factor;
 use ttb_sparse::Pencil;
 use ttb_sparse::blocks::{inner, solve_loads};
-use ttb_sparse::excited::{Excited, Ritz};
+use ttb_sparse::excited::{Excited, Vectors};
 
 /// A reduced model: m η̈_j + … + ω_j² η_j = φ_jᵀ f with unit modal mass.
 #[derive(Clone, Debug)]
@@ -73,13 +73,19 @@ impl Answers {
 }
 
 /// The model. Pseudo-modes that matter less than `negligible` (relative, in every combination's compliance) are left out.
-pub fn reduce(answers: &Answers, excited: &Excited, ritz: &Ritz, rows: &[Vec<(u32, f64)>], negligible: f64) -> Basis {
+pub fn reduce(
+    answers: &Answers,
+    excited: &Excited,
+    found: &Vectors,
+    rows: &[Vec<(u32, f64)>],
+    negligible: f64,
+) -> Basis {
     let s = answers.0.first().map_or(0, |answer| answer.inertia.ncols());
-    let seen = excited.seen(ritz, rows);
+    let seen = excited.seen(found, rows);
     // Each less its part in the modes, Φ diag((c_K ω² + c_M)^power) P seen through the rows.
     let less = |matrix: &Mat<f64>, power: i32, answer: &Answer| -> Mat<f64> {
         let weight = |w2: &f64| (answer.stiffness * w2 + answer.mass).powi(power);
-        let weights: Vec<f64> = ritz.omega2.iter().map(weight).collect();
+        let weights: Vec<f64> = found.omega2.iter().map(weight).collect();
         let weighted = Mat::from_fn(weights.len(), s, |k, j| weights[k] * seen[(j, k)]);
         let part = seen.subrows(0, matrix.nrows()) * &weighted;
         matrix - part
@@ -105,13 +111,13 @@ pub fn reduce(answers: &Answers, excited: &Excited, ritz: &Ritz, rows: &[Vec<(u3
     let all = Mat::from_fn(rows.len(), n, |i, j| of_rows[j / s][(i, j % s)]);
     let pseudo_rows = &all * &shapes;
     let kept = significant(answers, &omega2, &pseudo_rows, s, negligible);
-    let modes = ritz.omega2.len();
+    let modes = found.omega2.len();
     let columns = modes + kept.len();
     let number = |i: usize, j: usize| if j < modes { seen[(i, j)] } else { pseudo_rows[(i, kept[j - modes])] };
     let data = (0..columns).flat_map(|j| (0..rows.len()).map(move |i| (i, j))).map(|(i, j)| number(i, j));
     let shapes = Dense::new(rows.len(), data.collect());
     let pseudo = kept.iter().map(|&j| omega2[j]);
-    Basis { omega2: ritz.omega2.iter().copied().chain(pseudo).collect(), shapes, modes }
+    Basis { omega2: found.omega2.iter().copied().chain(pseudo).collect(), shapes, modes }
 }
 
 /// Pseudo-modes whose share in some combination's compliance, at some support, is not negligible.

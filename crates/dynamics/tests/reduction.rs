@@ -48,7 +48,7 @@ fn basis(long: usize, highest: f64) -> (Pencil, Basis) {
     let (stiffness, step) = (pencil.factor(1.0, 0.0, 0.0).unwrap(), pencil.factor(C[0], C[1], 0.0).unwrap());
     let rows = rows(long);
     let mut excited = Excited::new(&pencil, &stiffness, &rows[..long / 4]);
-    let ritz = excited.modes(highest, 2000);
+    let ritz = excited.modes(highest, 2000).modes;
     let mut answers = Answers::default();
     answers.add(&pencil, Shifted { factor: &stiffness, stiffness: 1.0, mass: 0.0 }, &rows, long / 4);
     answers.add(&pencil, Shifted { factor: &step, stiffness: C[0], mass: C[1] }, &rows, long / 4);

@@ -23,20 +23,41 @@ const TOLERANCE: f64 = 1e-7;
 /// The search; can be continued for more modes.
 pub struct Excited<'a>(Lanczos<'a>);
 
-/// Ritz values of the space so far.
-pub struct Ritz {
-    /// ω² of the modes found, lowest first.
+/// Some Ritz vectors of a space.
+pub struct Vectors {
+    /// Their ω², lowest first.
     pub omega2: Vec<f64>,
     /// Their s by columns.
     coordinates: Mat<f64>,
 }
 
+/// The Ritz values of the space so far: θ = 1/ω², ascending, and s by columns.
+struct Eigen {
+    values: Vec<f64>,
+    vectors: Mat<f64>,
+}
+
+/// What a space holds.
+pub struct Ritz {
+    /// The modes found.
+    pub modes: Vectors,
+    all: Eigen,
+}
+
 impl Ritz {
-    /// Those of the columns `kept`.
-    fn of(kept: &[usize], values: &[f64], vectors: &Mat<f64>) -> Self {
-        let omega2 = kept.iter().map(|&j| 1.0 / values[j]).collect();
-        let coordinates = Mat::from_fn(vectors.nrows(), kept.len(), |i, j| vectors[(i, kept[j])]);
-        Self { omega2, coordinates }
+    /// All that the space holds up to `highest` (rad/s): the modes, and above them vectors that each stand for several.
+    pub fn up_to(&self, highest: f64) -> Vectors {
+        let values = &self.all.values;
+        let kept: Vec<usize> = (0..values.len()).rev().take_while(|&j| values[j] * highest * highest >= 1.0).collect();
+        self.all.take(&kept)
+    }
+}
+
+impl Eigen {
+    fn take(&self, kept: &[usize]) -> Vectors {
+        let omega2 = kept.iter().map(|&j| 1.0 / self.values[j]).collect();
+        let coordinates = Mat::from_fn(self.vectors.nrows(), kept.len(), |i, j| self.vectors[(i, kept[j])]);
+        Vectors { omega2, coordinates }
     }
 }
 
@@ -88,43 +109,40 @@ impl<'a> Excited<'a> {
             }
             first = false;
             let p = self.dimension();
-            let (values, vectors) = self.eigen();
+            let all = self.eigen();
+            let Eigen { values, vectors } = &all;
             if values.len() < p {
-                return Ritz::of(&[], &values, &vectors);
+                return Ritz { modes: all.take(&[]), all };
             }
             let complete = self.0.is_closed();
             // Ascending θ: the highest come last.
             let found =
                 |j: usize| complete || self.0.residual((0..p).map(|k| vectors[(k, j)])) <= TOLERANCE * values[j];
             let wanted: Vec<usize> = (0..p).rev().take_while(|&j| values[j] >= theta).collect();
-            let all = wanted.iter().all(|&j| found(j)) && wanted.len() < p;
-            if all || complete || p >= most {
+            let every = wanted.iter().all(|&j| found(j)) && wanted.len() < p;
+            if every || complete || p >= most {
                 let kept: Vec<usize> = wanted.into_iter().take_while(|&j| found(j)).collect();
-                return Ritz::of(&kept, &values, &vectors);
+                return Ritz { modes: all.take(&kept), all };
             }
         }
     }
 
-    /// All that the space so far holds up to `highest` (rad/s): the modes, and above them vectors that each stand for several.
-    pub fn vectors(&self, highest: f64) -> Ritz {
-        let (values, vectors) = self.eigen();
-        let kept: Vec<usize> = (0..values.len()).rev().take_while(|&j| values[j] * highest * highest >= 1.0).collect();
-        Ritz::of(&kept, &values, &vectors)
-    }
-
-    /// θ, ascending, and s of the space so far; none where they cannot be computed.
-    fn eigen(&self) -> (Vec<f64>, Mat<f64>) {
+    /// Those of the space so far; none where they cannot be computed.
+    fn eigen(&self) -> Eigen {
         let p = self.dimension();
         let t = Mat::from_fn(p, p, |i, j| self.0.projected(i, j));
         match t.self_adjoint_eigen(Side::Lower) {
-            Ok(eigen) => (eigen.S().column_vector().iter().copied().collect(), eigen.U().to_owned()),
-            Err(_) => (Vec::new(), Mat::zeros(p, 0)),
+            Ok(eigen) => {
+                let values = eigen.S().column_vector().iter().copied().collect();
+                Eigen { values, vectors: eigen.U().to_owned() }
+            }
+            Err(_) => Eigen { values: Vec::new(), vectors: Mat::zeros(p, 0) },
         }
     }
 
     /// R Φ by rows, for sparse rows R.
-    pub fn seen(&self, ritz: &Ritz, rows: &[Vec<(u32, f64)>]) -> Mat<f64> {
-        let of_space = Mat::from_fn(rows.len(), ritz.coordinates.nrows(), |i, j| self.0.seen(&rows[i], j));
-        &of_space * &ritz.coordinates
+    pub fn seen(&self, vectors: &Vectors, rows: &[Vec<(u32, f64)>]) -> Mat<f64> {
+        let of_space = Mat::from_fn(rows.len(), vectors.coordinates.nrows(), |i, j| self.0.seen(&rows[i], j));
+        &of_space * &vectors.coordinates
     }
 }

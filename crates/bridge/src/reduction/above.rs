@@ -6,7 +6,7 @@ use ttb_dynamics::dense::Dense;
 use ttb_dynamics::near::Near;
 use ttb_dynamics::newmark::Newmark;
 use ttb_dynamics::reduction::{Answers, Shifted, reduce};
-use ttb_sparse::excited::{Excited, Ritz};
+use ttb_sparse::excited::{Excited, Ritz, Vectors};
 use ttb_sparse::{Factor, FactorError, Pencil};
 
 use super::Supports;
@@ -109,7 +109,7 @@ impl Above {
     pub fn coordinates(&self, excited: &Excited, ritz: &Ritz, rows: &[Row], highest: f64) -> Coordinates {
         match self {
             Self::Pseudo(answers) => {
-                let basis = reduce(answers, excited, ritz, rows, NEGLIGIBLE);
+                let basis = reduce(answers, excited, &ritz.modes, rows, NEGLIGIBLE);
                 let pseudo_modes = basis.omega2.len() - basis.modes;
                 let rows = Rows::Single(basis.shapes.single());
                 Coordinates { omega2: basis.omega2, rows, pseudo_modes, local_poles: 0 }
@@ -120,9 +120,9 @@ impl Above {
                 let ratio = (last / first).powf(1.0 / (samples.len() - 1).max(1) as f64);
                 let poles: Vec<f64> = (0..samples.len()).map(|i| first * ratio.powi(i as i32)).collect();
                 // T101 stays right at the σₐ with any vectors: those that are no modes yet show what resonates above.
-                let ritz = excited.vectors(REACH * highest);
-                let local = local(samples, &poles, excited, &ritz, rows);
-                let omega2 = local.omega2(&ritz.omega2, &poles);
+                let vectors = ritz.up_to(REACH * highest);
+                let local = local(samples, &poles, excited, &vectors, rows);
+                let omega2 = local.omega2(&vectors.omega2, &poles);
                 Coordinates { omega2, rows: Rows::Local(local), pseudo_modes: 0, local_poles: poles.len() }
             }
         }
@@ -130,14 +130,14 @@ impl Above {
 }
 
 /// φⱼ, gⱼᵢ and Gᵢ.
-fn local(samples: &[(f64, Dense)], poles: &[f64], excited: &Excited, ritz: &Ritz, rows: &[Row]) -> Local {
-    let seen = excited.seen(ritz, rows);
-    let shapes = (0..ritz.omega2.len()).flat_map(|j| (0..rows.len()).map(move |r| (r, j)));
+fn local(samples: &[(f64, Dense)], poles: &[f64], excited: &Excited, vectors: &Vectors, rows: &[Row]) -> Local {
+    let seen = excited.seen(vectors, rows);
+    let shapes = (0..vectors.omega2.len()).flat_map(|j| (0..rows.len()).map(move |r| (r, j)));
     let shapes = Dense::new(rows.len(), shapes.map(|place| seen[place]).collect()).single();
     let sigma: Vec<f64> = samples.iter().map(|(sigma, _)| *sigma).collect();
     let c = |a: usize, i: usize| inverse_cauchy(poles, &sigma, a, i);
     let share = |w2: f64, i: usize| (0..sigma.len()).map(|a| c(a, i) / (w2 + sigma[a])).sum::<f64>();
-    let shares = ritz.omega2.iter().flat_map(|w2| (0..poles.len()).map(move |i| (*w2, i)));
+    let shares = vectors.omega2.iter().flat_map(|w2| (0..poles.len()).map(move |i| (*w2, i)));
     let shares = Dense::new(poles.len(), shares.map(|(w2, i)| share(w2, i)).collect());
     let forces = samples.first().map_or(0, |(_, answer)| answer.columns());
     let scale: Vec<f64> =

@@ -118,7 +118,7 @@ pub fn build(
     let mut excited = Excited::new(pencil, stiffness, &rows[..ports]);
     loop {
         let ritz = excited.modes(std::f64::consts::TAU * hertz, MOST);
-        let (modes, highest) = (ritz.omega2.len(), std::f64::consts::TAU * hertz);
+        let (modes, highest) = (ritz.modes.omega2.len(), std::f64::consts::TAU * hertz);
         let Coordinates { omega2, rows, pseudo_modes, local_poles } = above.coordinates(&excited, &ritz, rows, highest);
         let system = Arc::new(Reduced::new(omega2));
         let shared = Arc::new(rows);
