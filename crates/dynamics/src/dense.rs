@@ -146,9 +146,9 @@ impl<T: Copy + Into<f64>, W: FnMut(usize, f64) -> [f64; N], const N: usize> With
     }
 }
 
-/// a · x over the first numbers of a.
+/// a · x over the first numbers of a, as many as x has.
 #[inline(always)]
-fn dot<T: Copy + Into<f64>>(a: &[T], x: &[f64]) -> f64 {
+pub(crate) fn dot<T: Copy + Into<f64>>(a: &[T], x: &[f64]) -> f64 {
     dot_in::<WIDE, T>(&a[..x.len()], x)
 }
 

@@ -4,7 +4,8 @@
 
 use pulp::{Arch, Simd, WithSimd};
 use serde::{Deserialize, Serialize};
-use ttb_sparse::vector::dot_in;
+
+use crate::dense::dot;
 
 /// A matrix by runs of columns; in single precision half as much is read from memory.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -18,8 +19,6 @@ pub struct Near<T = f64> {
     data: Vec<T>,
 }
 
-/// Partial sums of a product.
-const WIDE: usize = 16;
 /// Shorter gaps between runs are filled.
 const GAP: usize = 8;
 
@@ -132,7 +131,7 @@ impl<T: Copy + Into<f64>, W: FnMut(usize, f64) -> [f64; N], const N: usize> With
             for &[first, length] in runs {
                 let (first, a) = (first as usize, &row[..length as usize]);
                 let x = x.get(first..x.len().min(first + a.len())).unwrap_or(&[]);
-                p += dot_in::<WIDE, T>(&a[..x.len()], x);
+                p += dot(a, x);
                 row = &row[a.len()..];
             }
             let weights = weights(i, p);
