@@ -86,13 +86,16 @@ impl Local {
         fit && near && forces <= rows && coordinates == modes * (poles + 1) + poles * forces
     }
 
+    /// ηⱼ − Σᵢ gⱼᵢ ξⱼᵢ of a mode's own coordinates.
+    fn amplitude(&self, j: usize, own: &[f64]) -> f64 {
+        own[0] - self.shares.row(j).iter().zip(&own[1..]).map(|(g, xi)| g * xi).sum::<f64>()
+    }
+
     /// What is seen of the coordinates u in row i.
     pub fn dot(&self, i: usize, u: &[f64]) -> f64 {
         let (of_modes, of_forces) = u.split_at(self.modes() * (self.poles() + 1));
-        let modes = of_modes.chunks_exact(self.poles() + 1).enumerate().map(|(j, own)| {
-            let taken: f64 = self.shares.row(j).iter().zip(&own[1..]).map(|(g, xi)| g * xi).sum();
-            f64::from(self.shapes.row(j)[i]) * (own[0] - taken)
-        });
+        let modes = of_modes.chunks_exact(self.poles() + 1).enumerate();
+        let modes = modes.map(|(j, own)| f64::from(self.shapes.row(j)[i]) * self.amplitude(j, own));
         let near = self.near.iter().zip(of_forces.chunks_exact(self.forces().max(1)));
         let forces = near.map(|(near, x)| {
             let seen =
@@ -128,16 +131,12 @@ impl Local {
 
     /// R diag(w) times what drives the coordinates: S, of w that are the same for all coordinates of one pole.
     pub fn compliance(&self, w: &[f64]) -> Near {
-        let (each, forces, rows) = (self.poles() + 1, self.forces(), self.rows());
-        let of_mode = |j: usize| {
-            let own = &w[j * each..][..each];
-            own[0] - self.shares.row(j).iter().zip(&own[1..]).map(|(g, w)| g * w).sum::<f64>()
-        };
-        let of_modes: Vec<f64> = (0..self.modes()).map(of_mode).collect();
-        let mut all = self.shapes.weighted_gram(&of_modes, forces);
-        for (i, near) in self.near.iter().enumerate() {
-            for q in 0..forces {
-                let w = w[self.modes() * each + i * forces + q];
+        let (forces, rows) = (self.forces(), self.rows());
+        let (of_modes, of_forces) = w.split_at(self.modes() * (self.poles() + 1));
+        let of_modes = of_modes.chunks_exact(self.poles() + 1).enumerate().map(|(j, own)| self.amplitude(j, own));
+        let mut all = self.shapes.weighted_gram(&of_modes.collect::<Vec<_>>(), forces);
+        for (near, w) in self.near.iter().zip(of_forces.chunks_exact(forces.max(1))) {
+            for (q, w) in w.iter().enumerate() {
                 near.row(q).for_each(|(row, g)| all.row_mut(row)[q] += w * g);
             }
         }
