@@ -51,6 +51,11 @@ impl Row {
         let [d, v] = deck.map(|motion| by[0] * motion[0] + by[1] * motion[1]);
         self.spring.stiffness * d + self.spring.damping * v
     }
+
+    /// Adds a force on the row to `p`.
+    fn add(&self, force: f64, p: &mut [f64]) {
+        self.of.iter().for_each(|(i, c)| p[*i] += c * force);
+    }
 }
 
 /// Spring at a support as it is described: places count among the node's fields, then the support's own masses.
@@ -294,15 +299,14 @@ impl Line {
     /// Adds the forces of the deck's motion to `p`; `deck` gives (d_y, d_φ) and their rates by support on the bridge.
     pub fn add_deck(&self, deck: impl Fn(usize) -> [[f64; 2]; 2], p: &mut [f64]) {
         for OnBridge { support, row, by, .. } in &self.on_bridge {
-            let force = row.pressed(*by, deck(*support));
-            row.of.iter().for_each(|(i, c)| p[*i] += c * force);
+            row.add(row.pressed(*by, deck(*support)), p);
         }
     }
 
     /// Adds [`Line::deck_forces`] to `p`.
     pub fn add_deck_forces(&self, forces: &[f64], p: &mut [f64]) {
         for (on, force) in self.on_bridge.iter().zip(forces) {
-            on.row.of.iter().for_each(|(i, c)| p[*i] += c * force);
+            on.row.add(*force, p);
         }
     }
 
@@ -316,8 +320,7 @@ impl Line {
     /// Adds the forces of the ground beside the bridge, which moves by `d` m and `v` m/s to the right, to `p`.
     pub fn add_ground(&self, d: f64, v: f64, p: &mut [f64]) {
         for (row, by) in self.beside.iter().filter(|(_, by)| by[0] != 0.0) {
-            let force = by[0] * (row.spring.stiffness * d + row.spring.damping * v);
-            row.of.iter().for_each(|(i, c)| p[*i] += c * force);
+            row.add(by[0] * (row.spring.stiffness * d + row.spring.damping * v), p);
         }
     }
 
