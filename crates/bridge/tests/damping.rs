@@ -4,7 +4,7 @@ mod common;
 
 use std::sync::Arc;
 
-use common::{GIRDER, beams, drive, girder, girder_stations, outputs, set, span};
+use common::{GIRDER, beams, difference, drive, girder, girder_stations, outputs, set, span};
 use ttb_bridge::full::Full;
 use ttb_bridge::law::Law;
 use ttb_bridge::rows::Rows;
@@ -17,11 +17,6 @@ use ttb_scenario::types::{Damping, RayleighAt};
 use ttb_sparse::modes::lowest;
 use ttb_sparse::vector::dot;
 use ttb_sparse::{Factor, Layout, Pencil};
-
-fn difference(a: &[f64], b: &[f64]) -> f64 {
-    let largest = b.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
-    a.iter().zip(b).fold(0.0_f64, |m, (a, b)| m.max((a - b).abs())) / largest
-}
 
 /// M ü + C u̇ + K u = f with C = U diag(c) Uᵀ of two columns, solved by the general formula of Woodbury.
 struct Plain<'a> {

@@ -4,7 +4,9 @@ mod common;
 
 use std::sync::Arc;
 
-use common::{GIRDER, Train, drive, girder, girder_spec as spec, girder_stations as stations, outputs, stepping};
+use common::{
+    GIRDER, Train, difference, drive, girder, girder_spec as spec, girder_stations as stations, outputs, stepping,
+};
 use ttb_bridge::full::Full;
 use ttb_bridge::lanes::RUNS;
 use ttb_bridge::law::Law;
@@ -12,7 +14,7 @@ use ttb_bridge::rows::Rows;
 use ttb_bridge::space;
 use ttb_bridge::system::{Base, Lane, Step, System, Work};
 use ttb_bridge::{Abreast, Bridge, Prepared};
-use ttb_contract::{Instance, Model};
+use ttb_contract::Instance;
 use ttb_dynamics::newmark::{Motion, Newmark};
 use ttb_scenario::spec::BridgeSpec;
 use ttb_scenario::types::{Model as Elements, Reduction};
@@ -53,11 +55,6 @@ fn textbook(pencil: &Pencil, newmark: &Newmark, motion: &Motion, load: &[f64], n
     factor.solve_in_place(&mut next.u, &mut vec![0.0; n]);
     (next.v, next.a) = (vec![0.0; n], vec![0.0; n]);
     newmark.finish_all(motion, next);
-}
-
-fn difference(a: &[f64], b: &[f64]) -> f64 {
-    let largest = b.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
-    a.iter().zip(b).fold(0.0_f64, |m, (a, b)| m.max((a - b).abs())) / largest
 }
 
 #[test]
@@ -123,20 +120,9 @@ fn a_step_repeats_bit_for_bit_also_from_bytes_and_in_a_packed_bridge() {
     for reduction in [None, Some(Reduction { highest_frequency: Some(20.0), ..Reduction::default() })] {
         let spec = BridgeSpec { reduction, ..spec(girder(false)) };
         let here = drive_about(stepping(&spec));
-        let folder = tempfile::tempdir().unwrap();
-        for (name, content) in Bridge::new(spec.clone()).unwrap().resources(&spec).unwrap() {
-            std::fs::write(folder.path().join(name), content).unwrap();
-        }
-        let mut packed = Instance::new(Bridge::load(folder.path()).unwrap());
-        packed.enter_initialization(0.0).unwrap();
-        packed.exit_initialization().unwrap();
-        assert_eq!(drive_about(packed), here);
-        // A file cut short is refused.
-        let file = folder.path().join("bridge.bin");
-        let bytes = std::fs::read(&file).unwrap();
-        std::fs::write(&file, &bytes[..bytes.len() / 2]).unwrap();
-        let error = Bridge::load(folder.path()).err().expect("a damaged file").to_string();
-        assert!(error.contains("bridge.bin") && error.contains("damaged"), "{error}");
+        let folder = common::packed(&spec);
+        assert_eq!(drive_about(common::unpacked(folder.path())), here);
+        common::assert_cut_is_refused(folder.path(), |length| length / 2);
     }
 }
 

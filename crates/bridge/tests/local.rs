@@ -2,9 +2,9 @@
 
 mod common;
 
-use common::{GIRDER, Train, drive, get, girder, girder_spec, outputs, point, stepping};
+use common::{GIRDER, Train, difference, drive, get, girder, girder_spec, outputs, point, stepping};
 use ttb_bridge::Bridge;
-use ttb_contract::{Instance, Model as _};
+use ttb_contract::Instance;
 use ttb_scenario::spec::BridgeSpec;
 use ttb_scenario::types::{Damping, Direction, Point, RayleighAt, Reduction};
 
@@ -71,11 +71,6 @@ fn passage(spec: &BridgeSpec) -> Vec<Vec<f64>> {
     histories
 }
 
-fn difference(a: &[f64], b: &[f64]) -> f64 {
-    let largest = b.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
-    a.iter().zip(b).fold(0.0_f64, |m, (a, b)| m.max((a - b).abs())) / largest
-}
-
 #[test]
 fn a_passage_is_that_of_all_degrees_of_freedom() {
     let full = in_space();
@@ -128,16 +123,8 @@ fn steps_repeat_bit_for_bit_also_in_a_packed_bridge() {
         results
     };
     let here = run(stepping(&spec));
-    let folder = tempfile::tempdir().unwrap();
-    for (name, content) in Bridge::new(spec.clone()).unwrap().resources(&spec).unwrap() {
-        std::fs::write(folder.path().join(name), content).unwrap();
-    }
-    let load = || {
-        let mut packed = Instance::new(Bridge::load(folder.path()).unwrap());
-        packed.enter_initialization(0.0).unwrap();
-        packed.exit_initialization().unwrap();
-        packed
-    };
+    let folder = common::packed(&spec);
+    let load = || common::unpacked(folder.path());
     assert_eq!(run(load()), here);
     // Two half steps use another step size: what is seen then comes from the coordinates, not from S.
     let ends = [stepping(&spec), load()].map(|mut instance| {
@@ -146,13 +133,8 @@ fn steps_repeat_bit_for_bit_also_in_a_packed_bridge() {
         outputs(&mut instance)
     });
     assert_eq!(ends[0], ends[1]);
-    let file = folder.path().join("bridge.bin");
-    let bytes = std::fs::read(&file).unwrap();
-    for cut in [bytes.len() / 2, bytes.len() - 9] {
-        std::fs::write(&file, &bytes[..cut]).unwrap();
-        let error = Bridge::load(folder.path()).err().expect("a damaged file").to_string();
-        assert!(error.contains("bridge.bin") && error.contains("damaged"), "{error}");
-    }
+    common::assert_cut_is_refused(folder.path(), |length| length / 2);
+    common::assert_cut_is_refused(folder.path(), |length| length - 9);
 }
 
 #[test]

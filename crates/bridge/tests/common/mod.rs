@@ -79,7 +79,11 @@ pub fn frame(nodes: &[(&str, f64, f64, &[Fixity])], members: &[(&str, &str, &str
 
 /// An instance through its initialization, ready to step.
 pub fn stepping(spec: &BridgeSpec) -> Instance<Bridge> {
-    let mut instance = Instance::new(Bridge::new(spec.clone()).unwrap());
+    ready(Bridge::new(spec.clone()).unwrap())
+}
+
+fn ready(bridge: Bridge) -> Instance<Bridge> {
+    let mut instance = Instance::new(bridge);
     instance.enter_initialization(0.0).unwrap();
     instance.exit_initialization().unwrap();
     instance
@@ -123,6 +127,36 @@ pub fn near(name: &str, value: f64, expected: f64, tolerance: f64) {
     let error = value / expected - 1.0;
     println!("{name}: {value:.7e} (expected {expected:.7e}, error {:.2e})", error);
     assert!(error.abs() < tolerance, "{name}: {value} instead of {expected}");
+}
+
+/// Greatest difference of two histories relative to the greatest value of the second.
+pub fn difference(a: &[f64], b: &[f64]) -> f64 {
+    let largest = b.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+    a.iter().zip(b).fold(0.0_f64, |m, (a, b)| m.max((a - b).abs())) / largest
+}
+
+/// A folder with what a bridge's FMU keeps.
+pub fn packed(spec: &BridgeSpec) -> tempfile::TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    for (name, content) in Bridge::new(spec.clone()).unwrap().resources(spec).unwrap() {
+        std::fs::write(folder.path().join(name), content).unwrap();
+    }
+    folder
+}
+
+/// Its instance, ready to step.
+pub fn unpacked(folder: &std::path::Path) -> Instance<Bridge> {
+    ready(Bridge::load(folder).unwrap())
+}
+
+/// A bridge file cut short is refused, with the reason.
+pub fn assert_cut_is_refused(folder: &std::path::Path, length: impl FnOnce(usize) -> usize) {
+    let file = folder.join("bridge.bin");
+    let bytes = std::fs::read(&file).unwrap();
+    std::fs::write(&file, &bytes[..length(bytes.len())]).unwrap();
+    let error = Bridge::load(folder).err().expect("a damaged file").to_string();
+    assert!(error.contains("bridge.bin") && error.contains("damaged"), "{error}");
+    std::fs::write(&file, &bytes).unwrap();
 }
 
 /// Vertical forces (m behind the first, N) that move forward.
