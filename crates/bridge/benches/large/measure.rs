@@ -100,7 +100,7 @@ pub fn measure(scenario: &Path, reduce: Option<f64>, reducible: usize) -> Row {
         let mut setup = 0.0;
         let built = timed("reduce", &mut setup, || {
             let factor = pencil.factor(1.0, 0.0, 0.0).expect("a factor");
-            let supports = Supports { stations: &spec.supports, ports: 1 };
+            let supports = Supports { stations: &spec.supports, ports: supports };
             reduction::build(&pencil, &factor, &law, newmark, &rows, supports, &wish).expect("a basis")
         });
         println!("{:?}", built.accuracy);
