@@ -4,8 +4,8 @@
 //! m η̈_j + m c_j η̇_j + k ω_j² η_j = φ_jᵀ f      c_j = α + β (k/m) ω_j²   or   2ζω_j
 //! ```
 //!
-//! What the outside sees of every coordinate, R φ_j, is dense, or few numbers where its motion is local. A step reads these once: as the equations stand alone,
-//! one pass ends a step and begins the next, coordinate by coordinate. Repetitions read S.
+//! What the outside sees of every coordinate, R φ_j, is dense, or few numbers where its motion is local. A step reads these
+//! once: as the equations stand alone, one pass ends a step and begins the next, coordinate by coordinate. Repetitions read S.
 
 use std::sync::Arc;
 

@@ -18,7 +18,6 @@ export function arrange(engine) {
   byId("bridge-fmu-told").textContent = "A browser cannot run the machine code that an FMU holds. The program can: start it by ttb ui, which opens this page with FMUs.";
 }
 
-
 // A dropped FMU goes to the program, which keeps it until it ends.
 export async function drop(engine, file) {
   if (!engine.keep) throw new Refused(`${file.name}: ${byId("bridge-fmu-told").textContent}`);

@@ -5,7 +5,8 @@
 //!                     /TOKEN/api/VERB     a request of the page: JSON in, JSON out
 //! ```
 //!
-//! `gate` decides who is answered, `jobs` which computations go on, `http` reads requests, `serve` answers; `foreign` runs bridges of other programs.
+//! `gate` decides who is answered, `jobs` which computations go on, `http` reads requests, `serve` answers; `foreign` runs
+//! bridges of other programs.
 
 mod foreign;
 mod gate;
