@@ -20,9 +20,10 @@ use crate::assess::watch::Watch;
 use crate::cli::Run;
 use crate::connect::connected::{Connected, Given, connect};
 use crate::connect::isolate::Isolated;
-use crate::connect::map::Map;
+use crate::connect::map::{Map, maps_fit};
 use crate::connect::preload;
 use crate::connect::probe::{judge, judge_own};
+use crate::connect::trusting::trusting;
 use crate::error::Error;
 use crate::pictures::plot::Plot;
 use crate::prepare::{auto, fmus};
@@ -56,12 +57,7 @@ fn run_scenario(arguments: &Run, isolated: &Isolated, criteria: &Criteria, stop:
         std::fs::File::open(given).map_err(|e| Error::Input(format!("{}: {e}", given.display())))?;
     }
     let maps = arguments.map.iter().map(|path| Map::load(path)).collect::<Result<Vec<_>, _>>()?;
-    if maps.len() > 1 && maps.len() != arguments.bridge.len() {
-        let (maps, bridges) = (maps.len(), arguments.bridge.len());
-        return Err(Error::Input(format!(
-            "{bridges} bridges and {maps} maps: give one for all, or one for each in the same order"
-        )));
-    }
+    maps_fit(&arguments.bridge, &arguments.map)?;
     if arguments.train_track.is_some() && checked.scenario.time.step.given().is_none() {
         return Err(Error::Input("a step is chosen for our train and track: with --train-track give time.step".into()));
     }
@@ -90,7 +86,7 @@ fn run_scenario(arguments: &Run, isolated: &Isolated, criteria: &Criteria, stop:
     let job = Job::new(&checked, choice, provenance);
     let output = Output::new(&job, folder, arguments, built).with(resolved(&checked, at), &maps);
     let judged = Judged { criteria, facts: known, checked: Some(&checked) };
-    let done = run_trusting(
+    let done = trusting(
         |trusted| connect(&train_track, &bridges, &checked, isolated, trusted),
         |connected| {
             warn(&connected.warnings[told..]);
@@ -105,25 +101,6 @@ struct Judged<'a> {
     criteria: &'a Criteria,
     facts: Facts,
     checked: Option<&'a Checked>,
-}
-
-/// Runs with bridges as they describe themselves; should it turn out that one does not roll back, once more with other
-/// instances, as ones that say so.
-fn run_trusting(
-    open: impl Fn(bool) -> Result<Connected, Error>,
-    run: impl Fn(&mut Connected) -> Result<(), Error>,
-) -> Result<(), Error> {
-    let mut first = open(true)?;
-    match run(&mut first) {
-        Err(Error::NoReturn(text)) => {
-            // Not unloaded before the others, if it may stay: NumPy, for one, cannot be loaded twice.
-            let _stays = first.several.then_some(first);
-            let mut second = open(false)?;
-            second.warnings.push(text);
-            run(&mut second)
-        }
-        done => done,
-    }
 }
 
 fn warn(warnings: &[String]) {
@@ -156,7 +133,7 @@ fn run_system(
     let copies = vec![opened.resolved.write(place.path())?];
     let output = Output::new(&opened.job, folder, arguments, copies);
     let judged = Judged { criteria, facts: Facts::default(), checked: None };
-    let done = run_trusting(
+    let done = trusting(
         |trusted| opened.connect(isolated, trusted),
         |connected| {
             warn(&connected.warnings);

@@ -1,6 +1,6 @@
 //! `--isolate`: which FMUs get a process of their own, and what is said to users of those that have none.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -42,16 +42,26 @@ impl Isolated {
             Some(Isolate::Bridge) => [false, true],
             Some(Isolate::Both) => [true; 2],
         };
+        let Run { timeout, preload, .. } = arguments;
+        Self::of([train_track, bridge], *timeout, preload)
+    }
+
+    /// The train–track FMU and the bridge FMUs, each in a process of its own or not, with the longest time of a call, s, and
+    /// libraries that are loaded first.
+    ///
+    /// # Errors
+    /// There are no such processes on this system; the time is none.
+    pub fn of([train_track, bridge]: [bool; 2], timeout: Option<f64>, preload: &[PathBuf]) -> Result<Self, Error> {
         if !AVAILABLE {
-            return Err(Error::Input("--isolate is available on Linux and Windows only".into()));
+            return Err(Error::Input("an FMU can be isolated on Linux and Windows only".into()));
         }
-        let seconds = arguments.timeout.unwrap_or(TIMEOUT);
+        let seconds = timeout.unwrap_or(TIMEOUT);
         let timeout = Duration::try_from_secs_f64(seconds).ok().filter(|timeout| !timeout.is_zero());
         let timeout = timeout.ok_or_else(|| Error::Input(format!("--timeout must be more than 0 s, not {seconds}")))?;
         let program = std::env::current_exe().map_err(Error::io(Path::new("the path of this program")))?;
         let listener = Arc::new(|name: &str, line: &str| note!("{name}: {line}"));
         let mut host = vec!["host".into()];
-        host.extend(preload::passed_on(&arguments.preload));
+        host.extend(preload::passed_on(preload));
         let isolation = Isolation { program, arguments: host, timeout, listener };
         let wanted = |is: bool| is.then(|| isolation.clone());
         Ok(Self { train_track: wanted(train_track), bridge: wanted(bridge) })

@@ -10,4 +10,5 @@ mod ports;
 pub mod preload;
 pub mod probe;
 pub mod series;
+pub mod trusting;
 mod watched;

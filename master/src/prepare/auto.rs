@@ -30,9 +30,20 @@ const ERROR: f64 = 0.02;
 /// Halvings at most.
 const HALVINGS: usize = 5;
 
-/// Chooses, prints and sets the steps of a scenario that asks for it. Without `given` bridges the scenario's is prepared, and
-/// handed back for the run.
+/// As [`found`]; prints what was chosen.
 pub fn choose(
+    checked: &mut Checked,
+    given: &[Given],
+    isolated: &Isolated,
+) -> Result<(Option<Choice>, Option<Arc<Prepared>>), Error> {
+    let found = found(checked, given, isolated)?;
+    found.0.iter().for_each(Choice::print);
+    Ok(found)
+}
+
+/// Chooses and sets the steps of a scenario that asks for it. Without `given` bridges the scenario's is prepared, and
+/// handed back for the run.
+pub fn found(
     checked: &mut Checked,
     given: &[Given],
     isolated: &Isolated,
@@ -75,7 +86,6 @@ pub fn choose(
         checked.set_steps(Steps { step: taken.step_s, substeps: taken.substeps });
     }
     choice.warn();
-    choice.print();
     Ok((Some(choice), prepared))
 }
 

@@ -117,6 +117,18 @@ fn our_velocity() -> Option<Series> {
     Some(ours("velocity"))
 }
 
+/// Whether there is one map for all bridges, one for each, or none.
+///
+/// # Errors
+/// There is another number of them.
+pub fn maps_fit(bridges: &[PathBuf], maps: &[PathBuf]) -> Result<(), Error> {
+    let (bridges, maps) = (bridges.len(), maps.len());
+    if maps <= 1 || maps == bridges {
+        return Ok(());
+    }
+    Err(Error::Input(format!("{bridges} bridges and {maps} maps: give one for all, or one for each in the same order")))
+}
+
 impl Default for Map {
     /// Our own names.
     fn default() -> Self {
@@ -145,10 +157,18 @@ impl Default for Map {
 impl Map {
     /// Reads the file.
     pub fn load(path: &Path) -> Result<Self, Error> {
+        let text = ttb_scenario::read_text(path);
+        Self::parse(&text.map_err(|e| Error::Input(format!("{}: {e}", path.display())))?, path)
+    }
+
+    /// Reads the text of a file.
+    ///
+    /// # Errors
+    /// Everything that is wrong with it, each with its place.
+    pub fn parse(text: &str, path: &Path) -> Result<Self, Error> {
         let refused = |why: String| Error::Input(format!("{}: {why}", path.display()));
-        let text = ttb_scenario::read_text(path).map_err(|e| refused(e.to_string()))?;
         let schema = schemars::schema_for!(Self).to_value();
-        let read = ttb_scenario::read_as(&text, &schema, &path.display().to_string());
+        let read = ttb_scenario::read_as(text, &schema, &path.display().to_string());
         let mut map: Self = read.map_err(Error::Scenario)?;
         map.path = path.to_path_buf();
         let problems = map.problems();
