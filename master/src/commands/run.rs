@@ -269,7 +269,8 @@ fn finish(
     let outcome = outcome.and_then(|()| doubts.verdict());
     // Neither half a run nor one that blew up is judged.
     let outcome = outcome.and_then(|()| {
-        let histories = std::mem::take(&mut log.watch).histories(judged.checked, &job.scene);
+        let mut histories = std::mem::take(&mut log.watch).histories(judged.checked, &job.scene);
+        connected.place(&mut histories);
         let about = About { hash: &job.hash(), title: &job.case.title, step: job.case.step, checked: judged.checked };
         write_assessment(output.folder(), &about, &histories, judged.criteria, &judged.facts)
     });

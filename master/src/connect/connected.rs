@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
+use ttb_assessment::Histories;
 use ttb_contract::Subsystem;
 use ttb_contract::names::mean_force;
 use ttb_coupling::probe::Probe;
@@ -20,7 +21,7 @@ use super::map::{Map, Value};
 use super::parameters;
 use super::ports::in_order;
 use super::probe::Rules;
-use super::watched;
+use super::watched::{self, STATION};
 use crate::error::Error;
 
 /// The bridge side of a run: one FMU or several, each as the iteration wants it.
@@ -44,6 +45,18 @@ pub struct Connected {
     pub several: bool,
     /// What trial steps are judged by.
     pub rules: Rules,
+    /// Stations of the one bridge, m from its begin: where the points `station 1` … are. Of several bridges none.
+    pub stations: Vec<f64>,
+}
+
+impl Connected {
+    /// Gives points at stations their places.
+    pub fn place(&self, histories: &mut Histories) {
+        for point in histories.points.iter_mut().filter(|point| point.x.is_none()) {
+            let number = point.name.strip_prefix(STATION).and_then(|number| number.parse::<usize>().ok());
+            point.x = number.and_then(|number| self.stations.get(number.checked_sub(1)?)).copied();
+        }
+    }
 }
 
 /// A bridge FMU that the user gives, or that was built here.
@@ -116,7 +129,7 @@ pub fn connect(
     let Some(train_track) = train_track.filter(|_| problems.is_empty()) else {
         return Err(Error::Input(problems.join("\n")));
     };
-    let mut missing = watched::points(checked);
+    let (mut missing, mut stations) = (watched::points(checked), Vec::new());
     let assigned: Vec<Assigned> = match &offered[..] {
         [bridge] if bridges[0].map.is_none() => {
             let assigned = equal_names(&train_track, &bridge.instance, &mut warnings)?;
@@ -129,6 +142,9 @@ pub fn connect(
             let places: Vec<Option<Vec<f64>>> = places.collect::<Result<_, _>>()?;
             let supports = &checked.bridge.supports;
             let ranges = ranges(&maps, &instances, &places, supports)?;
+            if let [Some(places)] = &places[..] {
+                stations.clone_from(places);
+            }
             let each = maps.iter().zip(&instances).zip(ranges.iter().zip(&places));
             let each = each.map(|((map, bridge), (range, places))| {
                 let assigned =
@@ -146,7 +162,8 @@ pub fn connect(
     missing.retain(|name| !has(name));
     warnings.extend(watched::told(&missing));
     let parts = offered.into_iter().zip(assigned).collect();
-    couple(train_track, parts, &Case::of(checked), checked.scenario.coupling.send, warnings)
+    let connected = couple(train_track, parts, &Case::of(checked), checked.scenario.coupling.send, warnings)?;
+    Ok(Connected { stations, ..connected })
 }
 
 /// Couples FMUs in initialization mode.
@@ -245,6 +262,7 @@ pub fn couple(
         probe: Probe::default(),
         several: all_several,
         rules: Rules::default(),
+        stations: Vec::new(),
     })
 }
 

@@ -11,6 +11,9 @@ use ttb_scenario::types::Direction;
 use super::assign::Assigned;
 use super::map::Map;
 
+/// What the names of points at stations begin with; their number follows.
+pub const STATION: &str = "station ";
+
 /// Places of interest on one bridge; names of points on it are taken out of `missing`. Stations are of interest where the
 /// results shall hold supports, or where the scenario names no point.
 pub fn watch(
@@ -37,7 +40,7 @@ pub fn watch(
     }
     if checked.scenario.output.supports || checked.bridge.points.is_empty() {
         let all = stations.into_iter().flatten().enumerate();
-        places.extend(all.map(|(k, x)| (place(format!("point[station {}]", k + 1), true), *x)));
+        places.extend(all.map(|(k, x)| (place(format!("point[{STATION}{}]", k + 1), true), *x)));
     }
     let (places, at): (Vec<Place>, Vec<f64>) = places.into_iter().unzip();
     let rows = Stations::new(own, &map.bearings, &at, map.interpolation.into()).ok()?;
