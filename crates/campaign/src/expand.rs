@@ -13,6 +13,7 @@ use ttb_trains::ForceTrain;
 use crate::coupled::Source;
 use crate::error::Error;
 use crate::facts;
+use crate::foreign::{self, Foreign};
 use crate::limits::Limits;
 use crate::list::{self, Numbers, Written};
 use crate::plan::{FORMAT, Load, Plan, Rail, Train, Variant, Way};
@@ -51,16 +52,17 @@ pub fn source(scenario: &Path, set: impl IntoIterator<Item = (String, Value)>) -
 }
 
 /// Resolves a request whose scenario is a file. `limits` are those that it names, `version` is the program's, `beside` the folder
-/// from which the plan names its scenario.
+/// from which the plan names its scenario and its FMUs.
 ///
 /// # Errors
 /// Every problem of the request, a line each; those of the scenario.
 pub fn expand(request: &Request, version: &str, beside: &Path, limits: Limits) -> Result<Expanded, Error> {
     let source = source(&request.scenario, request.set.clone())?;
-    of_source(request, source, relative(&request.scenario, beside), version, limits)
+    let bridges = foreign::read(&request.bridges, beside).map_err(Error::Input)?;
+    of_source(request, source, relative(&request.scenario, beside), bridges, version, limits)
 }
 
-/// As [`expand`], of a scenario that was read already; the plan calls it `scenario`.
+/// As [`expand`], of a scenario and of FMUs that were read already; the plan calls the scenario `scenario`.
 ///
 /// # Errors
 /// As [`expand`].
@@ -68,24 +70,32 @@ pub fn of_source(
     request: &Request,
     source: Source,
     scenario: String,
+    bridges: Vec<Foreign>,
     version: &str,
     limits: Limits,
 ) -> Result<Expanded, Error> {
     let checked = source.checked().map_err(|problems| Error::Input(problems.to_string()))?;
-    let (facts, mut chosen, mut problems) = (facts::of(&checked), Vec::new(), Vec::new());
-    let way = request.way.given().unwrap_or_else(|| {
-        let (way, why) = if request.seeds.is_some() {
+    let over_fmu = !bridges.is_empty();
+    let (facts, mut chosen, mut problems) = (facts::of_plan(&checked, over_fmu), Vec::new(), Vec::new());
+    let way = request.way.given().filter(|_| !over_fmu).unwrap_or_else(|| {
+        let (way, why) = if over_fmu {
+            (Way::Coupled, "the bridge is an FMU, which is known step by step only")
+        } else if request.seeds.is_some() {
             (Way::Coupled, "seeds have a meaning for vehicles on an irregular rail only")
         } else if is_diagonal(&checked.bridge) {
             (Way::Modal, "axle loads on a bridge whose damping is diagonal in its modes")
         } else {
             (Way::OneAxle, "axle loads on a linear bridge")
         };
-        chosen.push(format!("way: {way} ({why}); --way chooses another"));
+        let other = if over_fmu { "" } else { "; --way chooses another" };
+        chosen.push(format!("way: {way} ({why}){other}"));
         way
     });
-    let trains = noted(trains(request, way, &checked), &mut problems);
+    let trains = noted(trains(request, way, &checked, over_fmu), &mut problems);
     let variants = noted(variants(request, &source), &mut problems);
+    if over_fmu {
+        problems.extend(foreign::impossible(request, &variants));
+    }
     let rails = noted(rails(request, way, &checked, &trains), &mut problems);
     let vehicles = trains.iter().any(|train| !matches!(train.load, Load::Axles(_)));
     let step = noted(step(request, vehicles, &facts, &trains, &variants), &mut problems);
@@ -112,6 +122,7 @@ pub fn of_source(
         scenario,
         scenario_sha256: checked.hash.clone(),
         set: request.set.clone().into_iter().collect(),
+        bridges,
         way,
         refine: request.refine,
         forces: request.forces,
@@ -133,12 +144,13 @@ fn noted<T: Default>(found: Result<T, String>, problems: &mut Vec<String>) -> T 
     })
 }
 
-fn trains(request: &Request, way: Way, checked: &Checked) -> Result<Vec<Train>, String> {
+fn trains(request: &Request, way: Way, checked: &Checked, over_fmu: bool) -> Result<Vec<Train>, String> {
     if request.trains.is_empty() {
         let name = own_name(&checked.scenario.train);
+        let own_forces = over_fmu && checked.scenario.train.forces.is_some();
         let load = match way {
-            Way::Coupled => Load::Scenario,
-            Way::Modal | Way::OneAxle => axles(&ForceTrain::of_vehicles(&name, "", &checked.train_track.consist())),
+            Way::Coupled if !own_forces => Load::Scenario,
+            _ => axles(&ForceTrain::of_vehicles(&name, "", &checked.train_track.consist())),
         };
         return Ok(headed(
             vec![Train { name, max_speed_km_h: None, load, heading: Heading::Forward }],
@@ -157,6 +169,10 @@ fn trains(request: &Request, way: Way, checked: &Checked) -> Result<Vec<Train>, 
             continue;
         }
         match ttb_trains::find(name) {
+            Ok(_) if over_fmu => problems.push(format!(
+                "trains: over an FMU axle loads run as the scenario's train alone: write \"train\": {{ \"forces\": \"{name}\", … }} \
+                 into the scenario and leave --trains out, or name cars (ttb list cars)"
+            )),
             Ok(found) => trains.extend(found.iter().map(|train| Train {
                 name: train.name.clone(),
                 max_speed_km_h: train.max_speed.map(|speed| list::tidy(3.6 * speed)),
@@ -262,12 +278,25 @@ fn step(
 }
 
 /// A path from a folder that need not be there yet.
-fn relative(path: &Path, from: &Path) -> String {
+pub(crate) fn relative(path: &Path, from: &Path) -> String {
     let (Some(path_), Some(from)) = (real(path), real(from)) else { return path.display().to_string() };
     let shared = path_.components().zip(from.components()).take_while(|(a, b)| a == b).count();
     let up = from.components().skip(shared).map(|_| std::path::Component::ParentDir);
     let relative: PathBuf = up.chain(path_.components().skip(shared)).collect();
     relative.display().to_string()
+}
+
+/// What [`relative`] was made of.
+pub(crate) fn joined(folder: &Path, relative: &str) -> PathBuf {
+    let mut path = real(folder).unwrap_or_else(|| folder.into());
+    for part in Path::new(relative).components() {
+        match part {
+            // Without links the folder above is the one before, whether the folder is there yet or not.
+            std::path::Component::ParentDir => drop(path.pop()),
+            part => path.push(part),
+        }
+    }
+    path
 }
 
 /// The path without links, as far as it is there.

@@ -41,6 +41,11 @@ pub fn of(checked: &Checked) -> Facts {
     of_own(checked, || vertical(checked).or_else(others))
 }
 
+/// Facts of a plan's scenario, whose bridge an FMU may stand for.
+pub fn of_plan(checked: &Checked, over_fmu: bool) -> Facts {
+    if over_fmu { of_track(checked) } else { of(checked) }
+}
+
 /// Facts of a scenario whose bridge is prepared already; frequencies of a large one stay unknown.
 pub fn of_prepared(checked: &Checked, bridge: &Prepared) -> Facts {
     let small = bridge.structure.ndof <= MANY;

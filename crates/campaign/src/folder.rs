@@ -6,13 +6,14 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use crate::compute::Compute;
 use crate::error::Error;
+use crate::foreign::{Foreign, short};
 use crate::journal::Journal;
 use crate::plan::{self, Plan, Run};
 use crate::pool::{self, Progress};
 use crate::refine::{Key, Known, Refined, Refinement};
 use crate::shard::Shard;
 use crate::status::Status;
-use crate::{hdf5, tables};
+use crate::{foreign, hdf5, tables};
 
 /// A folder with its plan.
 #[derive(Clone, Debug)]
@@ -35,9 +36,14 @@ impl Folder {
         if let Ok(text) = fs::read_to_string(&file) {
             let known = Plan::parse(&text, &file.display().to_string())?;
             let differs = if known.scenario_sha256 != plan.scenario_sha256 {
-                let short = |hash: &str| hash.chars().take(12).collect::<String>();
                 let (before, now) = (short(&known.scenario_sha256), short(&plan.scenario_sha256));
                 Some(format!("another scenario, or this one before it was changed (SHA-256 {before}…, now {now}…)"))
+            } else if !known.bridges.iter().map(Foreign::decides).eq(plan.bridges.iter().map(Foreign::decides)) {
+                let told = |plan: &Plan| match plan.bridges.as_slice() {
+                    [] => "the scenario's own".to_string(),
+                    all => all.iter().map(Foreign::title).collect::<Vec<_>>().join(", "),
+                };
+                Some(format!("another bridge or map (bridge before: {}; now: {})", told(&known), told(&plan)))
             } else if known.version != plan.version {
                 Some(format!("version {} of the program; this is {}", known.version, plan.version))
             } else {
@@ -84,7 +90,7 @@ impl Folder {
             let done = fs::remove_dir_all(&folder);
             gone(folder, done)?;
         }
-        for name in [plan::FILE, hdf5::FILE, tables::TIMINGS].into_iter().chain(tables::TABLES) {
+        for name in [plan::FILE, hdf5::FILE, tables::TIMINGS, foreign::NOTICED].into_iter().chain(tables::TABLES) {
             let file = path.join(name);
             let done = fs::remove_file(&file);
             gone(file, done)?;

@@ -4,7 +4,8 @@
 //! id = first 16 hexadecimal digits of SHA-256 of the JSON of
 //!      version of the program, meaning of the scenario, way, whether forces
 //!      are looked at, loads of the train, variant without its name, rail, bits of v;
-//!      if unusual: heading of the train, what its limits ask for
+//!      if unusual: heading of the train, what its limits ask for;
+//!      of bridges of other programs also: SHA-256 and map of each
 //! ```
 //!
 //! Names, the order of the plan and what else it holds are not in it: more speeds or trains leave the ids of the others as they

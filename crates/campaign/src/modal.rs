@@ -142,6 +142,8 @@ impl<'a> Modal<'a> {
             seconds: 0.0,
             peaks: rows.peaks(),
             envelopes: rows.envelopes,
+            missing: Vec::new(),
+            remarks: Vec::new(),
         }
     }
 }

@@ -163,6 +163,8 @@ impl<'a> OneAxle<'a> {
             seconds: 0.0,
             peaks,
             envelopes: rows.envelopes,
+            missing: Vec::new(),
+            remarks: Vec::new(),
         }
     }
 }

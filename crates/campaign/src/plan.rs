@@ -11,6 +11,7 @@ use serde_json::Value;
 use ttb_scenario::types::Heading;
 
 use crate::error::Error;
+use crate::foreign::Foreign;
 use crate::identity;
 use crate::list::tidy;
 
@@ -150,6 +151,9 @@ pub struct Plan {
     /// Keys of the scenario that have other values in all runs.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub set: Vec<(String, Value)>,
+    /// FMUs of other programs in the place of the scenario's bridge, in track order.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub bridges: Vec<Foreign>,
     /// How runs are computed.
     pub way: Way,
     /// Whether resonances are refined.
@@ -235,7 +239,12 @@ impl Plan {
             (&self.version, &self.scenario_sha256, self.way, self.forces),
             (load, factors, &of.set, rail, speed_km_h.map(f64::to_bits)),
         );
-        let id = if usual { identity::of(&decides) } else { identity::of(&(decides, heading, &self.values)) };
+        let bridges: Vec<_> = self.bridges.iter().map(Foreign::decides).collect();
+        let id = match (bridges.is_empty(), usual) {
+            (false, _) => identity::of(&(decides, heading, &self.values, bridges)),
+            (true, true) => identity::of(&decides),
+            (true, false) => identity::of(&(decides, heading, &self.values)),
+        };
         Run { id, train, variant, rail, speed_km_h, refined }
     }
 

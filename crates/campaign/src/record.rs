@@ -4,7 +4,7 @@ use std::borrow::Cow;
 use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
-use ttb_assessment::{Peak, Statistic};
+use ttb_assessment::{Missing, Peak, Statistic};
 
 use crate::error::Error;
 
@@ -35,6 +35,12 @@ pub struct Record {
     /// Extremes along the deck.
     #[serde(default)]
     pub envelopes: Vec<Envelope>,
+    /// Over an FMU: which values could not be made, and why.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub missing: Vec<Missing>,
+    /// Over an FMU: what was noticed, a sentence each.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub remarks: Vec<String>,
 }
 
 /// Where records are kept.
@@ -83,6 +89,8 @@ impl Record {
             seconds,
             peaks: Vec::new(),
             envelopes: Vec::new(),
+            missing: Vec::new(),
+            remarks: Vec::new(),
         }
     }
 

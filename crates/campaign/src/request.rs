@@ -19,6 +19,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 use crate::error::Error;
+use crate::foreign::Named;
 use crate::list::Written;
 use crate::plan::{Variant, Way};
 
@@ -31,6 +32,9 @@ pub struct Request {
     pub schema: Option<String>,
     /// The scenario file, from the request's folder.
     pub scenario: PathBuf,
+    /// FMUs of other programs in the place of the scenario's bridge, in track order; their files from the request's folder.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub bridges: Vec<Named>,
     /// Keys of the scenario that have other values in all runs.
     #[serde(default)]
     pub set: BTreeMap<String, Value>,
@@ -189,6 +193,9 @@ impl Request {
             serde_json::from_str(&text).map_err(|error| Error::Input(format!("{name}: {error}")))?;
         let folder = path.parent().unwrap_or(Path::new(""));
         request.scenario = folder.join(&request.scenario);
+        for Named { fmu, map } in &mut request.bridges {
+            std::iter::once(fmu).chain(map).for_each(|file| *file = folder.join(&*file));
+        }
         for name in request.trains.iter_mut().chain(&mut request.limits) {
             let beside = folder.join(&*name);
             if beside.is_file() {
@@ -229,5 +236,17 @@ mod tests {
         assert!(Variants::Word("bound".into()).list().is_err());
         assert!(Variants::Word("bounds:1,2".into()).list().is_err());
         assert!(serde_json::from_str::<Request>(r#"{ "scenario": "a", "train": ["x"] }"#).is_err());
+    }
+
+    #[test]
+    fn files_of_a_request_are_sought_beside_it() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("request.json");
+        let text = r#"{ "scenario": "a.json", "bridges": [{ "fmu": "b.fmu", "map": "c.json" }, { "fmu": "/d.fmu" }] }"#;
+        std::fs::write(&path, text).unwrap();
+        let Request { scenario, bridges, .. } = Request::read(&path).unwrap();
+        let beside = |name: &str| folder.path().join(name);
+        assert_eq!((scenario, &bridges[0].fmu), (beside("a.json"), &beside("b.fmu")));
+        assert_eq!((&bridges[0].map, &bridges[1].fmu), (&Some(beside("c.json")), &beside("/d.fmu")));
     }
 }

@@ -12,7 +12,7 @@ use ttb_scenario::spec::StructureSpec;
 use ttb_trains::Signature;
 
 use crate::compute::{Compute, Computed};
-use crate::coupled::{Bridges, Loads, Shared, Source, Vehicles};
+use crate::coupled::{Bridges, Loads, Master, OverFmu, Shared, Source, Vehicles};
 use crate::error::Error;
 use crate::expand::Expanded;
 use crate::governing::Governing;
@@ -44,6 +44,7 @@ pub struct Runner<'a> {
     kept: Kept,
     abreast: usize,
     keep: Option<&'a Path>,
+    master: Option<&'a dyn Master>,
 }
 
 /// Tracks and bridges that were prepared for a plan; a clone is the same.
@@ -76,7 +77,13 @@ impl<'a> Runner<'a> {
         let one_axle = OneAxle::new(plan, source, facts, filters.clone()).with(kept.one_axle.clone());
         let modal = Modal::new(plan, source, filters).with(kept.modal.clone());
         let abreast = abreast(&expanded.checked.bridge.structure);
-        Ok(Self { plan, source, facts, criteria, judged, modal, one_axle, kept, abreast, keep: None })
+        Ok(Self { plan, source, facts, criteria, judged, modal, one_axle, kept, abreast, keep: None, master: None })
+    }
+
+    /// With a master that takes the steps of runs over the FMUs of the plan.
+    #[must_use]
+    pub fn over(self, master: &'a dyn Master) -> Self {
+        Self { master: Some(master), ..self }
     }
 
     /// With the history of every run kept in this folder.
@@ -108,6 +115,9 @@ impl<'a> Runner<'a> {
     /// # Errors
     /// Why it failed, a sentence.
     pub fn again(&self, run: &Run, step: Option<f64>, stop: &AtomicBool) -> Again {
+        if let Some(over) = self.over_fmu() {
+            return Ok(over.run(run, stop)?.map(|(_, history)| (None, history)));
+        }
         match self.plan.trains[run.train].load {
             Load::Axles(_) => {
                 let again = self.loads(step).run(run, stop)?;
@@ -157,6 +167,13 @@ impl<'a> Runner<'a> {
         Vehicles { plan, source, criteria, facts, judged: *judged, shared: &kept.shared, abreast, keep }
     }
 
+    /// Runs over the FMUs of the plan; `None`: the bridge is the scenario's own.
+    fn over_fmu(&self) -> Option<OverFmu<'_>> {
+        let Self { plan, source, facts, criteria, judged, master, keep, .. } = self;
+        let of = |master| OverFmu { plan, source, criteria, facts, judged: *judged, master, keep: *keep };
+        (!plan.bridges.is_empty()).then(|| of(*master))
+    }
+
     fn coupled(&self, runs: &[Run], of_axles: bool, stop: &AtomicBool) -> Vec<Computed> {
         if of_axles { self.loads(None).compute(runs, stop) } else { self.vehicles().compute(runs, stop) }
     }
@@ -167,6 +184,7 @@ impl Compute for Runner<'_> {
         match self.plan.way {
             Way::Modal => self.modal.batch(runs, workers),
             Way::OneAxle => self.one_axle.batch(runs, workers),
+            Way::Coupled if !self.plan.bridges.is_empty() => 1,
             Way::Coupled => self.vehicles().batch(runs, workers),
         }
     }
@@ -186,6 +204,9 @@ impl Compute for Runner<'_> {
     }
 
     fn compute(&self, runs: &[Run], stop: &AtomicBool) -> Vec<Computed> {
+        if let Some(over) = self.over_fmu() {
+            return over.compute(runs, stop);
+        }
         match self.plan.way {
             Way::Modal => self.modal.compute(runs, stop),
             Way::OneAxle => self.one_axle.compute(runs, stop),

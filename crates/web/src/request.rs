@@ -66,6 +66,7 @@ impl Asked {
         Request {
             schema: None,
             scenario: SCENARIO.into(),
+            bridges: Vec::new(),
             set: Default::default(),
             trains: self.trains.clone(),
             speeds: self.speeds.clone(),

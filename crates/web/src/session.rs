@@ -41,7 +41,7 @@ impl Session {
         room.scenario(&source.checked().map_err(|problems| Fault::of(&problems))?)?;
         let limits = Limits { texts: asked.limits.texts()? };
         limits.criteria()?;
-        let expanded = expand::of_source(&asked.request(), source, SCENARIO.into(), VERSION, limits)?;
+        let expanded = expand::of_source(&asked.request(), source, SCENARIO.into(), Vec::new(), VERSION, limits)?;
         room.plan(&expanded)?;
         Ok(Self { asked, expanded, kept: Kept::default() })
     }

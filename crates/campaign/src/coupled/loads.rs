@@ -75,6 +75,8 @@ impl Loads<'_> {
             modes: checked.bridge.modes,
             peaks: rows::peaks(&histories, self.criteria, self.facts),
             envelopes: rows::envelopes(&histories, &self.judged),
+            missing: Vec::new(),
+            remarks: Vec::new(),
             seconds: begin.seconds(),
         };
         Ok(Some((record, rows::kept(table, &checked))))

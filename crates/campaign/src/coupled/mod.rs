@@ -5,17 +5,20 @@
 //! shared     tracks and bridges that several runs and threads share
 //! vehicles   vehicles on their track over the bridge
 //! forces     axle loads on a rigid track over the bridge; loads: runs of them
+//! over_fmu   any train over an FMU in the place of the bridge, whose steps a master takes that this crate does not know
 //! rows       histories reduced to rows and envelopes
 //! ```
 
 pub mod forces;
 pub mod loads;
+pub mod over_fmu;
 pub mod rows;
 pub mod shared;
 pub mod source;
 pub mod vehicles;
 
 pub use loads::{Bridges, Loads};
+pub use over_fmu::{Master, OverFmu, Stepped};
 pub use shared::Shared;
 pub use source::Source;
 pub use vehicles::Vehicles;

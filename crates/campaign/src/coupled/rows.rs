@@ -112,9 +112,14 @@ fn of_car(i: usize, car: &Car, history: &dyn Fn(&Of, &Quantity) -> Vec<f64>) -> 
 
 /// The rows of histories: those of the scenario's own points, and the worst of all others.
 pub fn peaks(histories: &Histories, criteria: &Criteria, facts: &Facts) -> Vec<Peak> {
+    worst(reduce(histories, criteria, facts).peaks)
+}
+
+/// Of all rows those of named points, and the worst of all others.
+pub fn worst(all: Vec<Peak>) -> Vec<Peak> {
     let mut own = Vec::new();
     let mut worst: BTreeMap<(PlaceKind, Cow<'static, str>, Cow<'static, str>, Statistic), Peak> = BTreeMap::new();
-    for peak in reduce(histories, criteria, facts).peaks {
+    for peak in all {
         let along_deck = peak.place_kind == PlaceKind::Point && peak.x.is_some();
         if along_deck || matches!(peak.place_kind, PlaceKind::Axle | PlaceKind::Car) {
             let kind = if along_deck { PlaceKind::Deck } else { peak.place_kind };

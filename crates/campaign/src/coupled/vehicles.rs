@@ -83,6 +83,8 @@ impl Vehicles<'_> {
                     modes: checked.bridge.modes,
                     peaks: rows::peaks(&histories, self.criteria, self.facts),
                     envelopes: rows::envelopes(&histories, &self.judged),
+                    missing: Vec::new(),
+                    remarks: Vec::new(),
                     seconds: 0.0,
                 };
                 kept::done(record, self.keep, || rows::kept(table, &checked))

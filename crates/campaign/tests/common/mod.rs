@@ -19,6 +19,7 @@ pub fn plan(trains: usize, speeds: usize) -> Plan {
         scenario: "my.json".into(),
         scenario_sha256: "00".into(),
         set: Vec::new(),
+        bridges: Vec::new(),
         way: Way::Modal,
         refine: false,
         forces: false,
@@ -58,5 +59,7 @@ pub fn record(id: &str, value: f64) -> Record {
         seconds: value,
         peaks: vec![peak],
         envelopes: vec![envelope(quantity::DECK_ACCELERATION), envelope(quantity::DECK_DISPLACEMENT)],
+        missing: Vec::new(),
+        remarks: Vec::new(),
     }
 }

@@ -3,4 +3,5 @@
 #[path = "../common/mod.rs"]
 mod common;
 mod coupled;
+mod over_fmu;
 mod refine;

@@ -26,6 +26,7 @@ fn request(arguments: &Sweep) -> Result<Request, Error> {
     Ok(Request {
         schema: None,
         scenario: arguments.scenario.clone(),
+        bridges: Vec::new(),
         set: arguments.set.set.iter().map(|setting| (setting.key.clone(), setting.value.clone())).collect(),
         trains: arguments.trains.as_deref().map(ttb_trains::split).unwrap_or_default(),
         speeds: text(&arguments.speeds),

@@ -1,0 +1,99 @@
+//! Any train over FMUs in the place of the scenario's bridge: a run has the bits of `ttb run --bridge` of the same scenario.
+//!
+//! FMUs are loaded and stepped by a [`Master`], which this crate does not know; what their histories are reduced to follows here.
+//! No points are added along the deck: what an FMU does not show is not judged, and said to be missing.
+
+use std::path::Path;
+use std::sync::atomic::AtomicBool;
+
+use ttb_assessment::{Criteria, Facts, Filter, Histories, reduce};
+use ttb_scenario::Checked;
+
+use super::{Source, rows};
+use crate::clock::Since;
+use crate::compute::{Compute, Computed};
+use crate::history::History;
+use crate::kept;
+use crate::plan::{Plan, Run};
+use crate::record::{FORMAT, Record};
+
+/// Takes the steps of runs over FMUs.
+pub trait Master: Sync {
+    /// A whole run of a scenario; `None` if it was asked to stop.
+    ///
+    /// # Errors
+    /// Why it failed, a sentence: also of an FMU that crashes or does not answer.
+    fn run(&self, checked: Checked, stop: &AtomicBool) -> Result<Option<Stepped>, String>;
+}
+
+/// What a run over FMUs leaves.
+pub struct Stepped {
+    /// What criteria judge.
+    pub histories: Histories,
+    /// What is kept whole of a governing run.
+    pub history: History,
+    /// Step, s.
+    pub step: f64,
+    /// What was noticed, a sentence each.
+    pub remarks: Vec<String>,
+}
+
+/// Runs of a plan over its FMUs.
+pub struct OverFmu<'a> {
+    /// The plan.
+    pub plan: &'a Plan,
+    /// Its scenario.
+    pub source: &'a Source,
+    /// Criteria whose values are made.
+    pub criteria: &'a Criteria,
+    /// What is known of the track.
+    pub facts: &'a Facts,
+    /// The filter behind which acceleration is judged.
+    pub judged: Filter,
+    /// Takes the steps; without one every run fails with a message.
+    pub master: Option<&'a dyn Master>,
+    /// The campaign's folder, if the history of every run is kept there.
+    pub keep: Option<&'a Path>,
+}
+
+impl Compute for OverFmu<'_> {
+    fn compute(&self, runs: &[Run], stop: &AtomicBool) -> Vec<Computed> {
+        runs.iter().map(|run| self.one(run, stop)).collect()
+    }
+}
+
+impl OverFmu<'_> {
+    /// A run with the history that is kept of it; `None` if it was asked to stop.
+    ///
+    /// # Errors
+    /// Why it failed, a sentence.
+    pub fn run(&self, run: &Run, stop: &AtomicBool) -> Result<Option<(Record, History)>, String> {
+        let begin = Since::now();
+        let master = self.master.ok_or("the bridge is an FMU, and the program ttb alone runs FMUs")?;
+        let checked = self.source.of_run(self.plan, run).map_err(|problems| problems.to_string())?;
+        let Some(stepped) = master.run(checked, stop)? else { return Ok(None) };
+        let reduced = reduce(&stepped.histories, self.criteria, self.facts);
+        let record = Record {
+            format: FORMAT,
+            run_id: run.id.clone(),
+            error: None,
+            step: Some(stepped.step),
+            modes: None,
+            peaks: rows::worst(reduced.peaks),
+            envelopes: rows::envelopes(&stepped.histories, &self.judged),
+            missing: reduced.missing,
+            remarks: stepped.remarks,
+            seconds: begin.seconds(),
+        };
+        Ok(Some((record, stepped.history)))
+    }
+
+    fn one(&self, run: &Run, stop: &AtomicBool) -> Computed {
+        let begin = Since::now();
+        match self.run(run, stop) {
+            Ok(Some((record, history))) => kept::done(record, self.keep, || history),
+            Ok(None) => Computed::Stopped,
+            Err(error) => Computed::Done(Record::failed(&run.id, error, begin.seconds())),
+        }
+    }
+}
