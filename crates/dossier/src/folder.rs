@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use ttb_assessment::{Facts, LossAt, Missing, Results};
+use ttb_campaign::foreign::NOTICED;
 use ttb_campaign::{Limits, facts};
 use ttb_scenario::Checked;
 
@@ -10,8 +11,8 @@ use crate::error::Error;
 use crate::files::Files;
 use crate::{statics, tables};
 
-/// Name of the file beside the tables of one run.
-pub const FILE: &str = "assessment.json";
+/// Name of the file beside the tables of one run, and of a sweep over FMUs.
+pub const FILE: &str = NOTICED;
 
 /// What a report must know that is in no table.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -27,6 +28,9 @@ pub struct Assessment {
     /// Every loss of contact.
     #[serde(default)]
     pub losses: Vec<LossAt>,
+    /// What was noticed in the runs of a sweep over FMUs.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub warnings: Vec<String>,
 }
 
 /// The plan of a sweep.
@@ -48,6 +52,8 @@ pub struct Opened<'a> {
     pub plan: Option<Value>,
     /// The summary of a run.
     pub summary: Option<Value>,
+    /// Whether an FMU of another program stands for the scenario's bridge.
+    pub over_fmu: bool,
     /// What was noticed.
     pub warnings: Vec<String>,
 }
@@ -69,28 +75,28 @@ impl<'a> Opened<'a> {
         let (plan, summary) = (json(files, PLAN)?, json(files, "summary.json")?);
         let mut warnings = Vec::new();
         let checked = scenario(files, plan.as_ref(), &mut warnings);
+        let over_fmu = is_foreign(summary.as_ref()) || has_fmus(plan.as_ref());
         let assessment = match files.text(FILE)? {
             Some(text) => {
                 serde_json::from_str(&text).map_err(|e| Error::Input(format!("{}: {e}", files.shown(FILE))))?
             }
             None => Assessment {
                 title: checked.as_ref().map_or_else(String::new, |checked| checked.scenario.title.clone()),
-                facts: checked.as_ref().map(facts::of).unwrap_or_default(),
+                facts: checked.as_ref().map(|checked| facts::of_plan(checked, over_fmu)).unwrap_or_default(),
                 ..Assessment::default()
             },
         };
         results.missing.clone_from(&assessment.missing);
         results.statics = match &checked {
-            Some(_) if is_foreign(summary.as_ref()) => {
-                statics::unknown("the bridge is a foreign FMU, whose influence lines are not known")
-            }
+            Some(_) if over_fmu => statics::unknown("the bridge is a foreign FMU, whose influence lines are not known"),
             Some(checked) => statics::of(checked),
             None => statics::unknown("the scenario of these results is not known"),
         };
         if let Some(list) = summary.as_ref().and_then(|summary| summary["warnings"].as_array()) {
             warnings.extend(list.iter().filter_map(Value::as_str).map(str::to_string));
         }
-        Ok(Self { files, results, assessment, checked, plan, summary, warnings })
+        warnings.extend(assessment.warnings.iter().cloned());
+        Ok(Self { files, results, assessment, checked, plan, summary, over_fmu, warnings })
     }
 
     /// The limits that a sweep was asked for with, if it was.
@@ -101,8 +107,13 @@ impl<'a> Opened<'a> {
     }
 }
 
-/// Whether a foreign FMU stands for the scenario's bridge.
-pub fn is_foreign(summary: Option<&Value>) -> bool {
+/// Whether the bridges of a plan are FMUs.
+fn has_fmus(plan: Option<&Value>) -> bool {
+    plan.and_then(|plan| plan["bridges"].as_array()).is_some_and(|bridges| !bridges.is_empty())
+}
+
+/// Whether a foreign FMU stands for the scenario's bridge in a run.
+fn is_foreign(summary: Option<&Value>) -> bool {
     let inputs = summary.and_then(|summary| summary["inputs"].as_array());
     inputs.is_some_and(|inputs| inputs.iter().any(|one| one["role"] == "bridge"))
 }

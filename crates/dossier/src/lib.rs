@@ -10,6 +10,7 @@
 pub mod error;
 pub mod files;
 pub mod folder;
+pub mod noticed;
 pub mod page;
 pub mod statics;
 pub mod tables;

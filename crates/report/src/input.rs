@@ -20,6 +20,8 @@ pub struct Input<'a> {
     pub results: &'a Results,
     /// The bridge, as far as it is known.
     pub bridge: Option<Bridge>,
+    /// FMUs that were given in the place of the bridge, and their maps.
+    pub given: Vec<Property>,
     /// Trains of axle loads.
     pub trains: Vec<Train>,
     /// Extremes along the deck of some runs.

@@ -64,6 +64,7 @@ fn nothing<'a>(results: &'a Results, verdicts: &'a Verdicts) -> Input<'a> {
         verdicts,
         results,
         bridge: None,
+        given: Vec::new(),
         trains: vec![],
         envelopes: vec![],
         passages: vec![],

@@ -60,6 +60,7 @@ pub fn write(
         limits: criteria.files.clone(),
         missing: reduced.missing,
         losses: reduced.losses,
+        warnings: Vec::new(),
     };
     files::write_json(&folder.join(FILE), &assessment)
 }

@@ -12,7 +12,6 @@ use ttb_assessment::{Criteria, Loads, Peak, PlaceKind, Statistic, Status, Verdic
 use ttb_campaign::expand;
 use ttb_contract::Model;
 use ttb_dossier::Opened;
-use ttb_dossier::folder::is_foreign;
 use ttb_dossier::verified::{Beside, FILE, Line, Verified};
 use ttb_scenario::Checked;
 use ttb_scenario::step::Steps;
@@ -64,7 +63,7 @@ pub fn write(folder: &Path, opened: &Opened, criteria: &Criteria, verdicts: &Ver
 
 /// The scenario of a run, with its steps.
 fn scenario(folder: &Path, opened: &Opened, run_id: &str) -> Result<Checked, Error> {
-    if is_foreign(opened.summary.as_ref()) {
+    if opened.over_fmu {
         return Err(Error::Input("--verify: the bridge is a foreign FMU, which no run in this process has".into()));
     }
     if opened.plan.is_some() {

@@ -1,5 +1,6 @@
 //! The bridge of a report: bearings, points, inputs with their units, modes with their shapes.
 
+use ttb_campaign::foreign::{self, Foreign};
 use ttb_passage::{ModalBridge, modal};
 use ttb_report::{Bridge, ModeShape, Property};
 use ttb_scenario::Checked;
@@ -7,7 +8,7 @@ use ttb_scenario::deck::Deck;
 use ttb_scenario::spec::StructureSpec;
 use ttb_scenario::types::Damping;
 
-use crate::folder::{Opened, is_foreign};
+use crate::folder::Opened;
 
 /// Modes that are shown at most, and points of a shape.
 const MODES: usize = 8;
@@ -18,7 +19,7 @@ pub fn of(opened: &Opened) -> (Option<Bridge>, Option<ModalBridge>) {
     let Some(checked) = &opened.checked else { return (None, None) };
     let Some(deck) = Deck::new(&checked.bridge.structure) else { return (None, None) };
     // A foreign FMU stands for the scenario's bridge: nothing of that one is shown.
-    if is_foreign(opened.summary.as_ref()) {
+    if opened.over_fmu {
         return (None, None);
     }
     let modal = ModalBridge::new(&checked.bridge, &modal::Settings::default()).ok();
@@ -28,6 +29,32 @@ pub fn of(opened: &Opened) -> (Option<Bridge>, Option<ModalBridge>) {
     let points = checked.bridge.points.iter().filter_map(|point| Some((point.name.clone(), point.x?))).collect();
     let modes = modal.as_ref().map(|modal| shapes(modal, deck.length)).unwrap_or_default();
     (Some(Bridge { length: deck.length, bearings, points, properties: properties(checked), modes }), modal)
+}
+
+/// FMUs in the place of the scenario's bridge, and their maps, as the summary of a run or the plan of a sweep names them.
+pub fn given(opened: &Opened) -> Vec<Property> {
+    let row = |name: &str, value: &str, sha256: &str| Property {
+        name: name.into(),
+        value: value.into(),
+        unit: String::new(),
+        source: format!("SHA-256 {sha256}"),
+    };
+    let inputs = opened.summary.as_ref().and_then(|summary| summary["inputs"].as_array()).into_iter().flatten();
+    let of_run = inputs.filter_map(|input| {
+        let name = match input["role"].as_str()? {
+            "bridge" => "bridge FMU",
+            "map" => "map of the FMU",
+            _ => return None,
+        };
+        Some(row(name, input["path"].as_str()?, input["sha256"].as_str()?))
+    });
+    let bridges = opened.plan.as_ref().map(|plan| plan["bridges"].clone()).unwrap_or_default();
+    let bridges: Vec<Foreign> = serde_json::from_value(bridges).unwrap_or_default();
+    let of_plan = bridges.iter().flat_map(|bridge| {
+        let map = bridge.map.as_ref().map(|[name, text]| row("map of the FMU", name, &foreign::of_text(text)));
+        std::iter::once(row("bridge FMU", &bridge.fmu, &bridge.sha256)).chain(map)
+    });
+    of_run.chain(of_plan).collect()
 }
 
 fn shapes(modal: &ModalBridge, length: f64) -> Vec<ModeShape> {

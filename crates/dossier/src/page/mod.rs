@@ -63,6 +63,7 @@ pub fn page(opened: &Opened, verdicts: &Verdicts, people: &[[String; 2]], date: 
         verdicts,
         results: &opened.results,
         bridge,
+        given: bridge::given(opened),
         trains,
         envelopes: envelopes(opened, governing)?,
         passages,

@@ -30,14 +30,15 @@ impl Model {
         if let Some(bridge) = &input.bridge {
             let governing = governing(input);
             (sketched, caption) = sketch(bridge, governing);
-            for p in &bridge.properties {
-                inputs.rows.push(vec![p.name.clone(), p.value.clone(), p.unit.clone(), p.source.clone()]);
-            }
             for (i, mode) in bridge.modes.iter().enumerate() {
                 let damping = mode.damping.map_or_else(|| "–".into(), |ratio| digits(100.0 * ratio, 3));
                 modes.rows.push(vec![(i + 1).to_string(), digits(mode.frequency, 5), damping]);
             }
             figure = shapes(bridge);
+        }
+        let of_bridge = input.bridge.iter().flat_map(|bridge| &bridge.properties);
+        for p in input.given.iter().chain(of_bridge) {
+            inputs.rows.push(vec![p.name.clone(), p.value.clone(), p.unit.clone(), p.source.clone()]);
         }
         let line = input.bridge.as_ref().and_then(|bridge| frequencies(bridge, input));
         Self { sketch: sketched, caption, inputs, modes, line, shapes: figure }
