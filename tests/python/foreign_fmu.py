@@ -24,6 +24,8 @@ class Beam:
     substeps: int = 1
     roll_back: bool = True
     velocities: bool = True
+    crashes_at: float | None = None  # s
+    hangs_at: float | None = None
 
     def write(self, folder, name="Deck"):
         """The FMU's path."""
@@ -39,6 +41,8 @@ class Beam:
             "RATIO": self.ratio,
             "PLACES": numbers,
             **({} if self.roll_back else {"NO_STATES": 1}),
+            **({} if self.crashes_at is None else {"CRASHES_AT": self.crashes_at}),
+            **({} if self.hangs_at is None else {"HANGS_AT": self.hangs_at}),
         }
         library = Path(folder) / f"{name}.so"
         defines = [f"-D{key}={value}" for key, value in flags.items()]

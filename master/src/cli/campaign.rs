@@ -14,7 +14,9 @@ PLAN.json says what is varied; only `scenario` is needed:
     \"seeds\": \"1:20\", \"variants\": \"bounds\", \"way\": \"auto\",
     \"axes\": { \"bridge.damping.ratio\": [0.01, 0.015] }
   }
-Every key of the scenario can be an axis. With a Slurm cluster:
+Every key of the scenario can be an axis. Bridge FMUs of other programs in the place of its bridge:
+    \"bridges\": [{ \"fmu\": \"Bridge.fmu\", \"map\": \"map.json\" }]
+With a Slurm cluster:
   ttb campaign plan PLAN.json -o out --tasks 16 > array.sbatch
   sbatch array.sbatch             # again until `ttb campaign status out` misses nothing
   ttb campaign merge out";

@@ -11,6 +11,7 @@ Examples:
   ttb sweep bridge.json --trains hslm-a,ice2,mine.csv --speeds 140:420 -o out
   ttb sweep bridge.json --trains hslm-a --speeds 140:420 --refine --variants bounds -o out
   ttb sweep bridge.json --speeds 200:300 --way coupled --seeds 1:20 -j 2 -o out
+  ttb sweep bridge.json --bridge THEIRS.fmu --map map.json --speeds 200:300 -o out
 
 The output folder gets
   runs.csv, peaks.csv, envelope.csv   a row a run, a reduced value, a point of the deck; results.h5: the same as arrays
@@ -56,6 +57,12 @@ pub struct Sweep {
     /// Limits, names and files with commas between them: their filters decide which values are made; kept for `ttb report`
     #[arg(long, value_name = "LIST", value_delimiter = ',')]
     pub limits: Vec<String>,
+    /// Use this FMU as the bridge, isolated, with any train of vehicles; several times for several bridges in track order
+    #[arg(long, value_name = "FMU")]
+    pub bridge: Vec<PathBuf>,
+    /// How the given bridge's variables belong to ours; `ttb inspect FMU --map` proposes one. One for all, or one for each
+    #[arg(long, value_name = "FILE", requires = "bridge")]
+    pub map: Vec<PathBuf>,
     /// Other values of keys
     #[command(flatten)]
     pub set: Set,
@@ -88,6 +95,12 @@ pub struct Common {
     /// Whose histories are kept in history/ and results.h5
     #[arg(long, value_enum, default_value = "worst", value_name = "WHOSE")]
     pub keep_histories: Keep,
+    /// Longest time a call of a bridge FMU may take [default: 60]
+    #[arg(long, value_name = "SECONDS", allow_negative_numbers = true)]
+    pub timeout: Option<f64>,
+    /// Load this library before bridge FMUs, e.g. libpython3.11.so.1.0 for those made with PythonFMU
+    #[arg(long, value_name = "LIB")]
+    pub preload: Vec<PathBuf>,
     /// No progress, no summary
     #[arg(short, long)]
     pub quiet: bool,

@@ -8,6 +8,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 typedef struct { double f[POINTS], q[MODES], v[MODES], stiffness, mass; int stepped; } beam_t;
 enum { OK = 0, ERROR = 3 };
@@ -77,6 +78,12 @@ int fmi2GetReal(void *c, const unsigned *vr, size_t n, double *value) {
 int fmi2DoStep(void *c, double t, double H, int keep) {
     beam_t *b = c;
     (void)t; (void)keep;
+#ifdef CRASHES_AT
+    if (t > CRASHES_AT) abort();
+#endif
+#ifdef HANGS_AT
+    while (t > HANGS_AT) sleep(1);
+#endif
     double h = H / SUBSTEPS;
     for (int j = 0; j < MODES; j++) {
         double p = load(b, j), w = omega(b, j), d = damping(b, j);

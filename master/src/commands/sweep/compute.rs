@@ -11,6 +11,7 @@ use ttb_campaign::{Folder, Limits, Runner, Shard, facts};
 
 use super::estimate::estimate;
 use super::outcome;
+use super::over_fmu::Bridges;
 use super::progress::Told;
 use crate::assess::limits;
 use crate::cli::{Common, Keep};
@@ -53,7 +54,7 @@ pub fn stored(file: &Path) -> Result<Expanded, Error> {
             scenario.display()
         )));
     }
-    let facts = facts::of(&checked);
+    let facts = facts::of_plan(&checked, !plan.bridges.is_empty());
     Ok(Expanded { plan, source, checked, facts, chosen: Vec::new() })
 }
 
@@ -64,7 +65,12 @@ pub fn compute(expanded: Expanded, common: &Common, stop: &Stop) -> Result<(), E
         return Err(Error::Input("no run is asked for: every train's greatest speed is below the first speed".into()));
     }
     let workers = common.jobs.unwrap_or_else(processors).max(1);
-    let runner = Runner::new(&expanded)?;
+    let bridges = Bridges::open(&expanded.plan, &common.output, common.timeout, &common.preload)?;
+    if let Some(bridges) = &bridges {
+        let first = expanded.source.of_run(&expanded.plan, &expanded.plan.runs()[0]).map_err(Error::Scenario)?;
+        bridges.fit(&first)?;
+    }
+    let runner = over(Runner::new(&expanded)?, bridges.as_ref());
     if common.dry_run {
         return estimate(&expanded.plan, &runner, common, workers);
     }
@@ -105,6 +111,14 @@ pub fn compute(expanded: Expanded, common: &Common, stop: &Stop) -> Result<(), E
     outcome::finish(&folder, &runner, &expanded, (common.quiet, common.keep_histories, workers), stop)
 }
 
+/// With the FMUs of its plan, if there are any.
+fn over<'a>(runner: Runner<'a>, bridges: Option<&'a Bridges>) -> Runner<'a> {
+    match bridges {
+        Some(bridges) => runner.over(bridges),
+        None => runner,
+    }
+}
+
 fn processors() -> usize {
     std::thread::available_parallelism().map_or(1, usize::from)
 }
@@ -135,5 +149,7 @@ pub fn merge(path: &Path, stop: &Stop) -> Result<(), Error> {
     let _claimed = Claimed::claim(path, stop)?;
     stop.gently();
     let folder = Folder::read(path)?;
-    outcome::finish(&folder, &Runner::new(&expanded)?, &expanded, (false, Keep::Worst, processors()), stop)
+    let bridges = Bridges::open(&expanded.plan, path, None, &[])?;
+    let runner = over(Runner::new(&expanded)?, bridges.as_ref());
+    outcome::finish(&folder, &runner, &expanded, (false, Keep::Worst, processors()), stop)
 }

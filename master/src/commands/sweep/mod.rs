@@ -3,15 +3,18 @@
 pub mod compute;
 mod estimate;
 mod outcome;
+pub mod over_fmu;
 mod progress;
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
+use ttb_campaign::foreign::Named;
 use ttb_campaign::list::Written;
 use ttb_campaign::plan::Variant;
 use ttb_campaign::request::{Choice, Headings, Request, Variants};
 
 use crate::cli::{Sweep, SweepHeading, SweepWay};
+use crate::connect::map::maps_fit;
 use crate::error::Error;
 use crate::signals::Stop;
 
@@ -26,7 +29,7 @@ fn request(arguments: &Sweep) -> Result<Request, Error> {
     Ok(Request {
         schema: None,
         scenario: arguments.scenario.clone(),
-        bridges: Vec::new(),
+        bridges: bridges(&arguments.bridge, &arguments.map)?,
         set: arguments.set.set.iter().map(|setting| (setting.key.clone(), setting.value.clone())).collect(),
         trains: arguments.trains.as_deref().map(ttb_trains::split).unwrap_or_default(),
         speeds: text(&arguments.speeds),
@@ -49,6 +52,13 @@ fn request(arguments: &Sweep) -> Result<Request, Error> {
         },
         limits: arguments.limits.clone(),
     })
+}
+
+/// Every FMU with its map: one for all, or one for each.
+fn bridges(fmus: &[PathBuf], maps: &[PathBuf]) -> Result<Vec<Named>, Error> {
+    maps_fit(fmus, maps)?;
+    let map = |k: usize| if maps.len() > 1 { maps.get(k) } else { maps.first() }.cloned();
+    Ok(fmus.iter().enumerate().map(|(k, fmu)| Named { fmu: fmu.clone(), map: map(k) }).collect())
 }
 
 /// A word, or a file with a list of variants.

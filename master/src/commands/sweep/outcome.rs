@@ -11,6 +11,8 @@ use ttb_campaign::plan::{Load, Plan};
 use ttb_campaign::slurm::quoted;
 use ttb_campaign::status::Status;
 use ttb_campaign::{Folder, Run, Runner, Shard, Way};
+use ttb_dossier::folder::FILE;
+use ttb_dossier::noticed::noticed;
 use ttb_scenario::spec::Profile;
 
 use crate::cli::Keep;
@@ -48,6 +50,10 @@ pub fn finish(
     let compared = again(folder, runner, &governing, (keep, workers), stop)?;
     let own_is_smooth = matches!(expanded.checked.train_track.irregularity, Profile::None);
     folder.tables(&runs, own_is_smooth)?;
+    let noticed = noticed(expanded, &runs, &folder.journal)?;
+    if let Some(noticed) = &noticed {
+        write_json(&folder.path().join(FILE), noticed)?;
+    }
     curves(folder, &runs, &expanded.checked.scenario.title)?;
     if !quiet {
         say!(
@@ -59,6 +65,7 @@ pub fn finish(
         );
         governing.iter().for_each(|one| say!("{}", sentence(&folder.plan, one)));
         compared.iter().for_each(|one| say!("{}", of_compared(one)));
+        noticed.iter().flat_map(|noticed| &noticed.warnings).for_each(|text| note!("ttb: warning: {text}"));
         for (id, error) in status.failed.iter().take(LISTED) {
             say!("failed: {id}: {}", error.lines().next().unwrap_or_default());
         }
