@@ -226,41 +226,88 @@ def test_direction_and_limits_of_a_request_are_those_of_a_sweep(page, ttb, tmp_p
     assert deepest[0] == pytest.approx(deepest[1], rel=1e-6)
 
 
-def test_a_bridge_fmu_of_another_program_is_run_and_judged_as_by_the_commands(page, ttb, examples, tmp_path):
-    scenario, fmu = (examples / "r1.json").read_text(), deck(tmp_path)
-    done = page.call("foreign", scenario=scenario, bridge=str(fmu), map=json.dumps(MAP))
-    assert "error" not in done, done
+def computed(page, asked):
+    """The plan of a request and the records of its runs."""
+    plan = page.call("plan", asked=asked, workers=2)
+    assert "error" not in plan, plan
+    return plan, page.call("runs", asked=asked, runs=plan["runs"])
+
+
+def test_a_bridge_fmu_of_another_program_is_swept_as_by_the_commands(page, ttb, examples, tmp_path, monkeypatch):
+    monkeypatch.setenv("SOURCE_DATE_EPOCH", "1700000000")
+    fmu = deck(tmp_path)
+    asked = {"scenario": (examples / "r1.json").read_text(), "speeds": "240,250", "way": "coupled", "bridge": {"fmu": str(fmu), "map": json.dumps(MAP)}}
+    plan, records = computed(page, asked)
+    [bridge] = plan["bridges"]
+    assert (bridge["fmu"], bridge["sha256"]) == (str(fmu), hashlib.sha256(fmu.read_bytes()).hexdigest())
+    outcome = page.call("outcome", asked=asked, records=records)
+    assert outcome["failed"] == [] and outcome["runs"] == 2 and len(outcome["charts"]) > 2
+    files = page.call("dossier", asked=asked, records=records, name="saved", date="2023-11-14")
+    (tmp_path / "saved").mkdir()
+    for name, text in files.items():
+        (tmp_path / "saved" / name).write_text(text)
     (tmp_path / "map.json").write_text(json.dumps(MAP))
-    ttb("run", examples / "r1.json", "--bridge", fmu, "--map", "map.json", "-o", "out", "--quiet", cwd=tmp_path)
-    ttb("report", "out", "--quiet", cwd=tmp_path)
-    expected = json.loads((tmp_path / "out" / "verdicts.json").read_text())
-    values = [[one["title"], one["value"], one["status"]] for one in expected["verdicts"]]
-    assert [[one["title"], one["value"], one["status"]] for one in done["verdicts"]["verdicts"]] == values
-    [bridge] = [one for one in done["inputs"] if one["role"] == "bridge"]
-    assert bridge == {"role": "bridge", "path": str(fmu), "sha256": hashlib.sha256(fmu.read_bytes()).hexdigest()}
-    assert "Deck.fmu" in done["report"] and "/ttb-ui-" not in done["said"]
-    # A file that was dropped on the page is kept under its name; a browser's path of it says nothing.
-    status, _, kept = page.ask("POST", f"{page.path}api/fmu", b"C:\\x/Deck.fmu\n" + fmu.read_bytes())
-    kept = Path(json.loads(kept)["path"])
-    assert status == 200 and kept.name == "Deck.fmu" and kept.read_bytes() == fmu.read_bytes()
+    ttb("sweep", examples / "r1.json", "--bridge", fmu, "--map", "map.json", "--speeds", "240,250", "-o", "out", "-q", cwd=tmp_path)
+    for name in ("runs.csv", "peaks.csv", "envelope.csv", "assessment.json"):
+        assert (tmp_path / "out" / name).read_text() == files[name], name
+    # What was saved is a sweep's folder: judged, and continued with the same FMU.
+    ttb("report", "saved", "--quiet", cwd=tmp_path)
+    assert (tmp_path / "saved" / "report.html").read_text() == files["report.html"]
+    assert bridge["sha256"] in files["report.html"]
+    ttb("campaign", "saved/plan.json", "-o", "saved", "-q", cwd=tmp_path)
+    assert (tmp_path / "saved" / "peaks.csv").read_text() == files["peaks.csv"]
+    assert "is an FMU" in page.call("film", asked=asked, runs=plan["runs"][:1])["error"]
+
+
+def test_what_a_bridge_fmu_cannot_do_is_told_with_the_plan(page, examples, tmp_path):
+    scenario, fmu = (examples / "r1.json").read_text(), deck(tmp_path)
+    for wrong, told in [
+        ({"bridge": {"fmu": str(tmp_path / "none.fmu")}}, "none.fmu"),
+        ({"bridge": {"fmu": str(fmu), "map": "{"}}, "map.json"),
+        ({"bridge": {"fmu": str(fmu), "map": json.dumps({**MAP, "force": {"name": "g[{i}]"}})}}, "g[1]"),
+        ({"trains": ["hslm-a1"], "way": "auto"}, "axle loads"),
+        ({"heading": "both", "variants": "bounds"}, "heading: "),
+    ]:
+        asked = {"scenario": scenario, "speeds": "250", "way": "coupled", "bridge": {"fmu": str(fmu), "map": json.dumps(MAP)}, **wrong}
+        error = page.call("plan", asked=asked)["error"]
+        assert told in error, error
+    # An FMU that was built anew is another one.
+    asked = {"scenario": scenario, "speeds": "250", "way": "coupled", "bridge": {"fmu": str(fmu), "map": json.dumps(MAP)}}
+    before = page.call("plan", asked=asked)["bridges"][0]["sha256"]
+    beam(20000).write(tmp_path)
+    after = page.call("plan", asked=asked)["bridges"][0]["sha256"]
+    assert before != after == hashlib.sha256(fmu.read_bytes()).hexdigest()
+
+
+def test_an_fmu_that_was_dropped_stays_until_another_one_replaces_it(page):
+    def drop(name, replaced=b""):
+        status, _, answer = page.ask("POST", f"{page.path}api/fmu", name + b"\n" + replaced + b"\nbytes\n" + name)
+        assert status == 200
+        return json.loads(answer)
+
+    # Kept under its name; a browser's path of it says nothing.
+    first, other = (Path(drop(b"C:\\x/Deck.fmu")["path"]) for _ in range(2))
+    assert first != other and first.name == "Deck.fmu" and first.read_bytes() == b"bytes\nC:\\x/Deck.fmu"
+    second = Path(drop(b"New.fmu", str(first).encode())["path"])
+    assert not first.parent.exists() and second.exists() and other.exists()
+    # Nothing is removed that was not dropped here.
+    drop(b"New.fmu", str(Path(__file__)).encode())
+    assert Path(__file__).exists()
     for name in (b"", b"..", b"Deck"):
-        assert "must have a name" in page.ask("POST", f"{page.path}api/fmu", name + b"\n...")[2]
-    for wrong, told in [({"bridge": str(tmp_path / "none.fmu")}, "none.fmu"), ({"map": "{"}, "map.json"), ({"scenario": "{}"}, "scenario.json")]:
-        request = {"scenario": scenario, "bridge": str(fmu), "map": json.dumps(MAP), **wrong}
-        error = page.call("foreign", **request)["error"]
-        assert told in error and "/ttb-ui-" not in error, error
+        assert "must have a name" in drop(name)["error"]
 
 
-def test_a_run_with_a_foreign_bridge_is_left_off(page, examples, tmp_path):
+def test_runs_with_a_foreign_bridge_are_left_off(page, examples, tmp_path):
     slow = json.loads((examples / "r1.json").read_text())
     slow["time"]["step"] = 1e-6
-    request = {"scenario": json.dumps(slow), "bridge": str(deck(tmp_path)), "map": json.dumps(MAP)}
+    asked = {"scenario": json.dumps(slow), "speeds": "240,250", "way": "coupled", "bridge": {"fmu": str(deck(tmp_path)), "map": json.dumps(MAP)}}
+    body = json.dumps({"asked": asked, "runs": page.call("plan", asked=asked)["runs"]})
     with concurrent.futures.ThreadPoolExecutor(1) as tab:
-        begun = tab.submit(page.ask, "POST", f"{page.path}api/foreign?job=deck", json.dumps(request))
+        begun = tab.submit(page.ask, "POST", f"{page.path}api/runs?job=deck", body)
         time.sleep(1.5)
         assert not begun.done(), begun.result()
         page.ask("POST", f"{page.path}api/cancel?job=deck")
-        assert json.loads(begun.result(timeout=5)[2]) == {"stopped": True}
+        assert json.loads(begun.result(timeout=5)[2]) == []
 
 
 def test_a_closed_tab_and_a_cancelled_job_leave_the_program_answering(page):

@@ -94,7 +94,7 @@ pub fn of_source(
     let trains = noted(trains(request, way, &checked, over_fmu), &mut problems);
     let variants = noted(variants(request, &source), &mut problems);
     if over_fmu {
-        problems.extend(foreign::impossible(request, &variants));
+        problems.extend(foreign::impossible(request));
     }
     let rails = noted(rails(request, way, &checked, &trains), &mut problems);
     let vehicles = trains.iter().any(|train| !matches!(train.load, Load::Axles(_)));
@@ -169,10 +169,6 @@ fn trains(request: &Request, way: Way, checked: &Checked, over_fmu: bool) -> Res
             continue;
         }
         match ttb_trains::find(name) {
-            Ok(_) if over_fmu => problems.push(format!(
-                "trains: over an FMU axle loads run as the scenario's train alone: write \"train\": {{ \"forces\": \"{name}\", … }} \
-                 into the scenario and leave --trains out, or name cars (ttb list cars)"
-            )),
             Ok(found) => trains.extend(found.iter().map(|train| Train {
                 name: train.name.clone(),
                 max_speed_km_h: train.max_speed.map(|speed| list::tidy(3.6 * speed)),

@@ -9,9 +9,9 @@ use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
+use ttb_scenario::bundled;
 
 use crate::expand::{joined, relative};
-use crate::plan::Variant;
 use crate::request::{Choice, Headings, Request};
 
 /// Name of the file beside the tables that has what runs over FMUs told: facts, what could not be made, remarks.
@@ -127,9 +127,19 @@ pub fn read(named: &[Named], beside: &Path) -> Result<Vec<Foreign>, String> {
     if problems.is_empty() { Ok(read) } else { Err(problems.join("\n")) }
 }
 
-/// What a request asks for that an FMU in the place of the bridge cannot do, each with what to do instead.
-pub(crate) fn impossible(request: &Request, variants: &[Variant]) -> Vec<String> {
+/// What a request asks for that an FMU in the place of the bridge cannot do, each with what to do instead, beginning with the key.
+#[must_use]
+pub fn impossible(request: &Request) -> Vec<String> {
+    // What is wrong with the list itself is told elsewhere.
+    let variants = request.variants.list().unwrap_or_default();
     let mut problems = Vec::new();
+    let of_loads = request.trains.iter().find(|name| bundled::cars(name).is_none() && ttb_trains::find(name).is_ok());
+    problems.extend(of_loads.map(|name| {
+        format!(
+            "trains: {name}: over an FMU axle loads run as the scenario's own train alone: write \"train\": {{ \"forces\": \
+             \"{name}\", … }} into the scenario and name no trains, or name cars (ttb list cars)"
+        )
+    }));
     let mut add = |is: bool, text: &str| problems.extend(is.then(|| text.to_string()));
     add(
         matches!(request.way, Choice::Modal | Choice::OneAxle),
@@ -146,12 +156,9 @@ pub(crate) fn impossible(request: &Request, variants: &[Variant]) -> Vec<String>
         "variants: mass and stiffness of an FMU are its own: give its parameters other values, in the map or, with ttb \
          campaign, as the axis fmus.bridge.parameters.NAME",
     );
-    let own = |key: &str| {
-        ["bridge.structure", "bridge.damping", "bridge.modes", "bridge.reduction"].iter().any(|of| key.starts_with(of))
-    };
-    let keys: Vec<&str> =
-        variants.iter().flat_map(|one| &one.set).map(|(key, _)| key.as_str()).filter(|key| own(key)).collect();
-    if let Some(key) = keys.first() {
+    let own = ["bridge.structure", "bridge.damping", "bridge.modes", "bridge.reduction"];
+    let set = variants.iter().flat_map(|one| &one.set).map(|(key, _)| key).chain(request.axes.keys());
+    if let Some(key) = set.into_iter().find(|key| own.iter().any(|of| key.starts_with(of))) {
         problems
             .push(format!("axes: {key} changes the scenario's bridge, in whose place the FMU stands: leave it out"));
     }

@@ -53,9 +53,15 @@ function problemsOf(error) {
   return error.problems.length ? error.problems : error.message.split("\n").map((text) => ({ path: "", text }));
 }
 
+// Scenario and request, with the FMU that stands for the bridge.
+function collected() {
+  const { scenario, request } = collect(axles);
+  return { scenario, request: { ...request, ...foreign.asked() } };
+}
+
 async function look() {
   const mine = (latest += 1);
-  const { scenario, request } = collect(axles);
+  const { scenario, request } = collected();
   command(request);
   try {
     const seen = await engine.call("look", { text: JSON.stringify(scenario), asked: request });
@@ -84,15 +90,11 @@ function typed() {
 const judges = () => ({ names: limits(), own: shown.ownLimits });
 
 function command(request) {
-  if (foreign.given()) {
-    byId("command").textContent = foreign.command();
-    return;
-  }
-  const words = ["ttb sweep scenario.json"];
+  const words = ["ttb sweep scenario.json", ...foreign.words()];
   if (request.trains.length) words.push(`--trains ${request.trains.join(",")}`);
   if (request.speeds !== undefined) words.push(`--speeds ${request.speeds}`);
   if (request.seeds !== undefined) words.push(`--seeds ${request.seeds}`);
-  if (request.way === "coupled") words.push("--way coupled");
+  if (request.way === "coupled" && !request.bridge) words.push("--way coupled");
   if (request.heading !== "forward") words.push(`--heading ${request.heading}`);
   if (request.refine) words.push("--refine");
   if (request.variants) words.push(`--variants ${request.variants}`);
@@ -128,7 +130,7 @@ async function start(event) {
   const controller = new AbortController();
   running = controller;
   busy(true);
-  const { scenario, request } = collect(axles);
+  const { scenario, request } = collected();
   const limits = judges();
   const asked = { scenario: JSON.stringify(scenario, null, 2), ...request, limits };
   const begin = performance.now();
@@ -140,13 +142,6 @@ async function start(event) {
       tell(`${done} of ${total} runs`);
     };
     progress(0, plan.runs.length);
-    if (foreign.given()) {
-      const done = await foreign.compute(engine, scenario, request, plan, limits, progress, controller.signal);
-      tell(`${done.length} ${done.length === 1 ? "run" : "runs"} with the FMU in ${((performance.now() - begin) / 1000).toFixed(1)} s`);
-      byId("stale").hidden = true;
-      foreign.results(done, begin);
-      return;
-    }
     const records = await compute(engine, asked, plan, progress, controller.signal);
     const outcome = await engine.long("outcome", { asked, records: lean(records), limits }, controller.signal);
     tell(`${outcome.runs} ${outcome.runs === 1 ? "run" : "runs"} in ${((performance.now() - begin) / 1000).toFixed(1)} s`);
@@ -177,6 +172,7 @@ function busy(is) {
 
 function put({ scenario, request }) {
   fill(scenario, request);
+  foreign.fill(request?.bridge);
   if (request?.limits) ownLimits(request.limits.own ?? null, "the file of limits that was opened");
   everything = true;
   paste();
@@ -205,12 +201,12 @@ async function open(files) {
 }
 
 function save() {
-  const { scenario, request } = collect(axles);
+  const { scenario, request } = collected();
   shown.save("scenario.json", `${JSON.stringify({ ...scenario, $comment: { page: { ...request, limits: judges() } } }, null, 2)}\n`, "application/json");
 }
 
 async function link() {
-  const { scenario, request } = collect(axles);
+  const { scenario, request } = collected();
   const address = await fragment({ scenario, request: { ...request, limits: judges() } });
   if (address === undefined) return tell("The scenario is too large for a link: save it instead.");
   history.replaceState(null, "", address);

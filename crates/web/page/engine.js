@@ -168,9 +168,9 @@ class Program {
     }
   }
 
-  // A file that the program keeps until it ends: its path.
-  async keep(file) {
-    const answer = await fetch("api/fmu", { method: "POST", body: new Blob([`${file.name}\n`, file]) });
+  // A file that the program keeps until it ends, or until another one replaces it: its path.
+  async keep(file, replaced) {
+    const answer = await fetch("api/fmu", { method: "POST", body: new Blob([`${file.name}\n${replaced}\n`, file]) });
     return read(await answer.text());
   }
 

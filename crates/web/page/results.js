@@ -2,10 +2,11 @@
 
 import { chart, element, number } from "./chart.js";
 import { show } from "./film.js";
+import * as foreign from "./foreign.js";
 import { zip } from "./zip.js";
 
 const byId = (id) => document.getElementById(id);
-export const FACTORS = { "m/s2": [1, "m/s²"], m: [1000, "mm"], N: [0.001, "kN"], "N.m": [0.001, "kN m"], 1: [1, ""] };
+const FACTORS = { "m/s2": [1, "m/s²"], m: [1000, "mm"], N: [0.001, "kN"], "N.m": [0.001, "kN m"], 1: [1, ""] };
 const WORDS = { exceeded: "exceeded", fulfilled: "fulfilled", informative: "for information", "not-judged": "not judged" };
 
 function save(name, content, type) {
@@ -25,7 +26,7 @@ export function clear() {
   byId("outcome").replaceChildren(element("p", { class: "hint" }, "Computing …"));
 }
 
-export const amount = (value, unit) => {
+const amount = (value, unit) => {
   const [factor, name] = FACTORS[unit] ?? [1, unit];
   return `${number(value === null ? NaN : value * factor)} ${name}`.trim();
 };
@@ -33,7 +34,7 @@ export const amount = (value, unit) => {
 function results(of) {
   const { outcome } = of;
   const judged = outcome.verdicts.verdicts.filter((verdict) => verdict.status !== "not-judged");
-  byId("outcome").replaceChildren(banner(judged), actions(of), verdicts(outcome.verdicts.verdicts), ...failures(outcome.failed));
+  byId("outcome").replaceChildren(banner(judged), actions(of), verdicts(outcome.verdicts.verdicts), ...failures(outcome.failed), ...foreign.told(of));
   const across = { title: "speed", unit: "km/h" };
   const charts = outcome.charts.filter((one) => one.lines.some((line) => line.points.length > 1));
   byId("charts").replaceChildren(...charts.map((one) => chart({ ...one, across, title: `${one.title}${one.filter === "raw" ? "" : ` (${one.filter})`}` })));
@@ -41,7 +42,7 @@ function results(of) {
   document.documentElement.dataset.computed = String(Math.round(performance.now() - of.begin));
 }
 
-export function banner(judged) {
+function banner(judged) {
   const bad = judged.filter((verdict) => verdict.status === "exceeded");
   const worst = judged.filter((verdict) => verdict.utilisation !== null).sort((a, b) => b.utilisation - a.utilisation)[0];
   const of = worst ? ` Governing: ${worst.title}, ${amount(worst.value, worst.unit)} of ${amount(worst.limit, worst.unit)} (${number(100 * worst.utilisation, 3)} %)${worst.train ? `, ${worst.train}` : ""}${worst.speed_km_h ? ` at ${number(worst.speed_km_h)} km/h` : ""}.` : "";
@@ -49,7 +50,7 @@ export function banner(judged) {
   return element("p", { class: `banner ${bad.length ? "bad" : "good"}`, id: "verdict", role: "status" }, element("strong", {}, said), of);
 }
 
-export function verdicts(all) {
+function verdicts(all) {
   const head = ["Outcome", "Criterion", "Value", "Limit", "Train, speed"].map((text, i) => element("th", { scope: "col", class: i === 2 || i === 3 ? "number" : undefined }, text));
   const rows = all.filter((verdict) => verdict.status !== "not-judged").map((verdict) => element("tr", {},
     element("td", { class: `status ${verdict.status}` }, WORDS[verdict.status]),
@@ -108,6 +109,7 @@ function actions(of) {
 // The governing run in motion, and any other.
 function runs(of) {
   const place = byId("film");
+  if (of.plan.bridges.length) return place.replaceChildren(...foreign.still());
   const picture = element("div");
   const choices = of.outcome.governing.map((one) => [one.run, `${one.title}: largest ${one.quantity} (${one.filter})`]);
   for (const run of of.plan.runs.slice(0, 3000)) {

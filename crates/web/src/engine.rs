@@ -15,7 +15,7 @@ use crate::about::About;
 use crate::fault::Fault;
 use crate::request::{Asked, Limits, Wanted};
 use crate::room::Room;
-use crate::session::{Session, Sessions};
+use crate::session::{Masters, Session, Sessions};
 use crate::{film, look, outcome};
 
 /// Answers requests.
@@ -26,6 +26,8 @@ pub struct Engine {
     pub room: Room,
     /// Threads that compute runs.
     pub threads: usize,
+    /// What runs FMUs; none: they are refused.
+    pub masters: Option<Masters>,
     sessions: Sessions,
 }
 
@@ -64,7 +66,7 @@ struct Text {
 impl Engine {
     /// An engine without anything prepared.
     pub fn new(folder: PathBuf, room: Room, threads: usize) -> Self {
-        Self { folder, room, threads, sessions: Sessions::default() }
+        Self { folder, room, threads, masters: None, sessions: Sessions::default() }
     }
 
     /// The answer to a verb with its request: JSON, of a request that has none `{"error": …, "problems": […]}`. `stop` asks to
@@ -127,7 +129,7 @@ impl Engine {
     }
 
     fn session(&self, asked: Asked) -> Result<Arc<Session>, Fault> {
-        self.sessions.of(asked, &self.folder, &self.room)
+        self.sessions.of(asked, &self.folder, &self.room, self.masters.as_ref())
     }
 }
 
@@ -146,7 +148,7 @@ fn plan(session: &Session, workers: usize) -> Result<String, Fault> {
     let trains: Vec<&str> = plan.trains.iter().map(|train| train.name.as_str()).collect();
     Ok(written(&json!({
         "way": plan.way.name(), "chosen": session.expanded.chosen, "trains": trains,
-        "speeds": plan.speeds_km_h.len(), "refine": plan.refine, "hash": plan.scenario_sha256,
+        "speeds": plan.speeds_km_h.len(), "refine": plan.refine, "hash": plan.scenario_sha256, "bridges": plan.bridges,
         "runs": runs.iter().map(Wanted::from).collect::<Vec<_>>(), "parts": parts(session, &runs, workers)?,
     })))
 }

@@ -55,6 +55,9 @@ pub struct Film {
 /// Why it fails.
 pub fn film(session: &Session, run: &Run, stop: &AtomicBool) -> Result<Option<Film>, Fault> {
     let plan = &session.expanded.plan;
+    if !plan.bridges.is_empty() {
+        return Err(Fault::new("the motion of the whole deck is not known: the bridge is an FMU"));
+    }
     let train = &plan.trains[run.train];
     let runner = session.runner()?;
     let backward = !train.heading.is_forward();

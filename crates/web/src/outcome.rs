@@ -11,6 +11,8 @@ use ttb_campaign::governing::{self, Compared, FILE as CHECK};
 use ttb_campaign::plan::{FILE as PLAN, Plan};
 use ttb_campaign::refine::{Known, Refinement};
 use ttb_campaign::{Record, Run, tables};
+use ttb_dossier::folder::FILE;
+use ttb_dossier::noticed::noticed;
 use ttb_dossier::{Memory, Opened};
 
 use crate::fault::Fault;
@@ -38,6 +40,8 @@ pub struct Outcome {
     failed: Vec<[String; 2]>,
     /// Number of runs.
     runs: usize,
+    /// Over an FMU: what was noticed.
+    warnings: Vec<String>,
 }
 
 /// Largest values over speed of a quantity behind a filter.
@@ -128,6 +132,7 @@ pub fn outcome(session: &Session, records: &Records, limits: &Limits) -> Result<
         governing: governing.into_iter().map(told).collect(),
         failed: failed.collect(),
         runs,
+        warnings: opened.assessment.warnings.clone(),
         verdicts,
     })
 }
@@ -165,14 +170,22 @@ fn charts(runs: &[Run], opened: &Opened, verdicts: &Verdicts, plan: &Plan) -> Ve
 /// It cannot be written as text.
 pub fn folder(session: &Session, records: &Records, compared: &[Compared], name: &str) -> Result<Memory, Fault> {
     let plan = &session.expanded.plan;
-    let texts = tables::texts(plan, &runs(session, records)?, records, session.own_is_smooth())?;
+    let runs = runs(session, records)?;
+    let texts = tables::texts(plan, &runs, records, session.own_is_smooth())?;
     let mut files: BTreeMap<String, Vec<u8>> =
         tables::TABLES.iter().map(|name| (*name).to_string()).zip(texts).collect();
     files.insert(PLAN.into(), plan.text()?.into_bytes());
     files.insert(SCENARIO.into(), session.asked.scenario.clone().into_bytes());
+    let mut add = |name: &str, text: Result<String, serde_json::Error>| {
+        let text = text.map_err(|error| Fault::new(error.to_string()))?;
+        files.insert(name.into(), (text + "\n").into_bytes());
+        Ok::<_, Fault>(())
+    };
+    if let Some(noticed) = noticed(&session.expanded, &runs, records)? {
+        add(FILE, serde_json::to_string_pretty(&noticed))?;
+    }
     if !compared.is_empty() {
-        let text = serde_json::to_string_pretty(compared).map_err(|error| Fault::new(error.to_string()))?;
-        files.insert(CHECK.into(), (text + "\n").into_bytes());
+        add(CHECK, serde_json::to_string_pretty(compared))?;
     }
     Ok(Memory { name: name.into(), beside: session.expanded.source.folder.clone(), files })
 }

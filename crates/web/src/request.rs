@@ -1,9 +1,12 @@
 //! What the page asks for: a scenario, and what is varied.
 
+use std::path::{Path, PathBuf};
+
 use serde::{Deserialize, Serialize};
 use ttb_assessment::Criteria;
 use ttb_assessment::criterion::{self, DEFAULT};
 use ttb_campaign::expand::LARGEST_SEED;
+use ttb_campaign::foreign::{self, Foreign};
 use ttb_campaign::limits;
 use ttb_campaign::list::{self, Written};
 use ttb_campaign::plan::{Plan, Rail, Run};
@@ -14,6 +17,8 @@ use crate::fault::Fault;
 
 /// How the page's scenario is called in messages, plans and saved folders.
 pub const SCENARIO: &str = "scenario.json";
+/// How the map of its FMU is called.
+const MAP: &str = "map.json";
 
 /// A request. What it does not name is as in `ttb sweep`.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -39,9 +44,33 @@ pub struct Asked {
     pub heading: Headings,
     /// Limits by which runs are judged: they decide behind which filters values are made.
     pub limits: Limits,
+    /// An FMU of another program in the place of the scenario's bridge.
+    pub bridge: Option<Bridge>,
+}
+
+/// An FMU of another program in the place of the scenario's bridge.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Bridge {
+    /// The FMU on this computer.
+    pub fmu: PathBuf,
+    /// Text of its map; empty: its variables have our names.
+    #[serde(default)]
+    pub map: String,
 }
 
 impl Asked {
+    /// The FMUs of the plan, by whole paths: a folder that is saved may lie anywhere.
+    ///
+    /// # Errors
+    /// One cannot be read.
+    pub fn bridges(&self) -> Result<Vec<Foreign>, Fault> {
+        let Some(Bridge { fmu, map }) = &self.bridge else { return Ok(Vec::new()) };
+        let whole = std::path::absolute(fmu).unwrap_or_else(|_| fmu.clone());
+        let map = (!map.trim().is_empty()).then(|| [MAP.into(), map.clone()]);
+        Ok(vec![Foreign::new(&whole, map, Path::new("")).map_err(Fault::new)?])
+    }
+
     /// What is wrong with trains, speeds and seeds, a sentence each that begins with the key.
     pub fn problems(&self) -> Vec<String> {
         let mut problems: Vec<String> = Vec::new();
@@ -56,6 +85,9 @@ impl Asked {
         });
         let seeds = self.seeds.as_ref().and_then(|seeds| list::whole(seeds, LARGEST_SEED).err());
         problems.extend(seeds.map(|error| format!("seeds: {error}")));
+        if self.bridge.is_some() {
+            problems.extend(foreign::impossible(&self.request()));
+        }
         problems
     }
 

@@ -4,7 +4,7 @@ use std::path::Path;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 
-use ttb_campaign::coupled::Source;
+use ttb_campaign::coupled::{Master, Source};
 use ttb_campaign::expand::{self, Expanded};
 use ttb_campaign::limits::Limits;
 use ttb_campaign::runner::Kept;
@@ -18,6 +18,11 @@ use crate::room::Room;
 /// Version that decides results.
 pub const VERSION: &str = env!("CARGO_PKG_VERSION");
 
+/// A master over the FMUs of a plan.
+pub type Over = Box<dyn Master + Send>;
+/// Makes one, as the program can: problems with FMUs and maps are told at once, a line each.
+pub type Masters = Box<dyn Fn(&Expanded) -> Result<Over, String> + Send + Sync>;
+
 /// What a thread leaves that ended by a panic.
 type Died = Box<dyn std::any::Any + Send>;
 
@@ -27,23 +32,31 @@ pub struct Session {
     pub asked: Asked,
     /// Plan, scenario, facts.
     pub expanded: Expanded,
+    master: Option<Over>,
     kept: Kept,
 }
 
 impl Session {
-    /// Of a request; `folder` is where its scenario looks for files.
+    /// Of a request; `folder` is where its scenario looks for files, `masters` runs FMUs, if anybody can.
     ///
     /// # Errors
-    /// All problems of scenario and request; what has no room.
-    pub fn new(asked: Asked, folder: &Path, room: &Room) -> Result<Self, Fault> {
+    /// All problems of scenario, request and FMU; what has no room.
+    pub fn new(asked: Asked, folder: &Path, room: &Room, masters: Option<&Masters>) -> Result<Self, Fault> {
+        if asked.bridge.is_some() && masters.is_none() {
+            return Err(Fault::new(
+                "a browser cannot run the machine code that an FMU holds; the page of `ttb ui` can",
+            ));
+        }
         let source =
             Source { text: asked.scenario.clone(), folder: folder.into(), name: SCENARIO.into(), settings: Vec::new() };
         room.scenario(&source.checked().map_err(|problems| Fault::of(&problems))?)?;
         let limits = Limits { texts: asked.limits.texts()? };
         limits.criteria()?;
-        let expanded = expand::of_source(&asked.request(), source, SCENARIO.into(), Vec::new(), VERSION, limits)?;
+        let expanded = expand::of_source(&asked.request(), source, SCENARIO.into(), asked.bridges()?, VERSION, limits)?;
         room.plan(&expanded)?;
-        Ok(Self { asked, expanded, kept: Kept::default() })
+        let masters = masters.filter(|_| !expanded.plan.bridges.is_empty());
+        let master = masters.map(|make| make(&expanded)).transpose().map_err(Fault::new)?;
+        Ok(Self { asked, expanded, master, kept: Kept::default() })
     }
 
     /// What computes its runs.
@@ -51,7 +64,16 @@ impl Session {
     /// # Errors
     /// The criteria that come with the program cannot be read.
     pub fn runner(&self) -> Result<Runner<'_>, Fault> {
-        Ok(Runner::with(&self.expanded, self.kept.clone())?)
+        let runner = Runner::with(&self.expanded, self.kept.clone())?;
+        Ok(match &self.master {
+            Some(master) => runner.over(&**master),
+            None => runner,
+        })
+    }
+
+    /// Whether its FMUs are still those that it was made with.
+    fn is_current(&self) -> bool {
+        self.expanded.plan.bridges.iter().all(|bridge| bridge.file(Path::new("")).is_ok())
     }
 
     /// Whether the scenario's own rail is smooth.
@@ -106,12 +128,18 @@ impl Sessions {
     ///
     /// # Errors
     /// As [`Session::new`].
-    pub fn of(&self, asked: Asked, folder: &Path, room: &Room) -> Result<Arc<Session>, Fault> {
+    pub fn of(
+        &self,
+        asked: Asked,
+        folder: &Path,
+        room: &Room,
+        masters: Option<&Masters>,
+    ) -> Result<Arc<Session>, Fault> {
         if let Some(known) = self.known(&asked) {
             return Ok(known);
         }
         // Made without the lock, so that other requests go on; what two make at the same time is the same.
-        let new = Arc::new(Session::new(asked, folder, room)?);
+        let new = Arc::new(Session::new(asked, folder, room, masters)?);
         if let Some(known) = self.known(&new.asked) {
             return Ok(known);
         }
@@ -123,7 +151,10 @@ impl Sessions {
 
     fn known(&self, asked: &Asked) -> Option<Arc<Session>> {
         let mut kept = self.0.lock().unwrap_or_else(PoisonError::into_inner);
-        let at = kept.iter().position(|session| session.asked == *asked)?;
+        let at = {
+            kept.retain(|session| session.asked != *asked || session.is_current());
+            kept.iter().position(|session| session.asked == *asked)?
+        };
         kept[..=at].rotate_right(1);
         kept.first().cloned()
     }

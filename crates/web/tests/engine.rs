@@ -93,3 +93,12 @@ fn the_page_names_its_own_files_alone() {
         }
     }
 }
+
+#[test]
+fn a_page_without_the_program_says_where_fmus_can_be_had() {
+    let scenario =
+        std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples/r1.json")).unwrap();
+    let asked = json!({ "scenario": scenario, "speeds": "250", "way": "coupled", "bridge": { "fmu": "Deck.fmu" } });
+    let told = call(&engine(), "plan", &json!({ "asked": asked }))["error"].as_str().unwrap().to_string();
+    assert!(told.contains("ttb ui"), "{told}");
+}

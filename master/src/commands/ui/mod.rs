@@ -5,7 +5,7 @@
 //!                     /TOKEN/api/VERB     a request of the page: JSON in, JSON out
 //! ```
 //!
-//! `gate` decides who is answered, `jobs` which computations go on, `http` reads requests, `serve` answers; `foreign` runs
+//! `gate` decides who is answered, `jobs` which computations go on, `http` reads requests, `serve` answers; `foreign` has
 //! bridges of other programs.
 
 mod foreign;
@@ -37,7 +37,9 @@ pub fn ui(arguments: &Ui, stop: &Stop) -> Result<(), Error> {
     let gate = Gate::new(port);
     let address = gate.address();
     let threads = std::thread::available_parallelism().map_or(1, usize::from);
-    let service = Service::new(gate, Engine::new(folder, Room::PROGRAM, threads), scenario.transpose()?);
+    let mut engine = Engine::new(folder, Room::PROGRAM, threads);
+    engine.masters = Some(foreign::masters());
+    let service = Service::new(gate, engine, scenario.transpose()?);
     stop.gently();
     say!("{address}");
     note!("ttb: open this address in a browser on this machine; Ctrl-C ends the program");

@@ -6,7 +6,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use sha2::{Digest, Sha256};
 use ttb_web::{Engine, page};
 
-use super::foreign::{self, Dropped};
+use super::foreign::Dropped;
 use super::gate::{Asked, Gate, Request};
 use super::http::{self, Request as Http};
 use super::jobs::Jobs;
@@ -113,7 +113,6 @@ impl Service {
             _ => {
                 let stop = self.jobs.begin(job);
                 let answered = catch_unwind(AssertUnwindSafe(|| match verb {
-                    "foreign" => foreign::run(body, &stop),
                     "fmu" => self.dropped.keep(body),
                     _ => self.engine.call(verb, body, &stop),
                 }));
