@@ -9,7 +9,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use ttb_assessment::filter::RAW;
 use ttb_assessment::{Filter, Peak, PlaceKind, Statistic};
-use ttb_passage::{Extreme, Heading, ModalBridge, Output, Passage, PlaceKind as Kind, Quantity, Response, Settings};
+use ttb_passage::{Extreme, Heading, ModalBridge, Output, Passage, PlaceKind as Kind, Quantity, Settings};
 use ttb_trains::{Axle, ForceTrain};
 
 use crate::clock::Since;
@@ -114,23 +114,25 @@ impl<'a> Modal<'a> {
     fn record(&self, run: &Run, passage: &Passage, speed: f64) -> Record {
         let bridge = passage.bridge();
         let (outputs, positions) = (bridge.outputs(), bridge.positions());
-        let response: Response = passage.at(speed);
+        let (response, histories) = if self.filters.is_empty() {
+            (passage.at(speed), None)
+        } else {
+            let (response, histories) = passage.with_histories(speed);
+            (response, Some(histories))
+        };
         let mut rows = Rows::default();
         for (k, (output, extreme)) in outputs.iter().zip(&response.extremes).enumerate() {
             rows.add(output, RAW, extreme, passage.statics().get(k));
         }
-        if !self.filters.is_empty() {
-            let histories = passage.histories(speed);
-            for filter in &self.filters {
-                let filtered = histories.filtered(|h, signals| filter.apply_each(signals, 1.0 / h, speed * h));
-                let filtered = match filtered {
-                    Ok(filtered) => filtered,
-                    Err(error) => return Record::failed(&run.id, format!("{}: {error}", filter.label()), 0.0),
-                };
-                let label = filter.label();
-                for (output, extreme) in outputs[positions..].iter().zip(&filtered.accelerations()) {
-                    rows.add(output, &label, extreme, None);
-                }
+        for (filter, histories) in self.filters.iter().zip(histories.iter().cycle()) {
+            let label = filter.label();
+            let filtered = histories.accelerations(|h, signals| filter.apply_each(signals, 1.0 / h, speed * h));
+            let filtered = match filtered {
+                Ok(filtered) => filtered,
+                Err(error) => return Record::failed(&run.id, format!("{label}: {error}"), 0.0),
+            };
+            for (output, extreme) in outputs[positions..].iter().zip(&filtered) {
+                rows.add(output, &label, extreme, None);
             }
         }
         Record {

@@ -1,4 +1,4 @@
-//! Outputs over a block of steps, reduced at once: where no output of a group can reach a new extreme, none is computed.
+//! Outputs of a passage, reduced in blocks of steps: where no output of a group can reach a new extreme, none is computed.
 //!
 //! ```text
 //! y_k(n) = rest_k(n) + Σ_j Y_kj x_j(n)                        x: q or q̈
@@ -6,12 +6,14 @@
 //! top_k ≤ y_k + |bend_k|/8,   |bend_k| ≤ Σ_j |Y_kj| max |x_j(n−2) − 2x_j(n−1) + x_j(n)| + 2 (max rest_k − min rest_k)
 //! ```
 //!
-//! A train that has passed, or passes without resonance, leaves most blocks below what was seen before. What is computed is
-//! computed in the same order as without bounds: an extreme has the same bits.
+//! The blocks that promise most come first; few others are left that may exceed what was found in them. What is computed is
+//! computed in the same order as without bounds: an extreme has the same bits. Where two of the same bits are reached, one of
+//! them is kept.
 
 use pulp::Simd;
 
-use crate::extreme::{WIDE, Watch};
+use crate::extreme::{Extreme, WIDE, Watch};
+use crate::load::Rest;
 
 /// Modes that are taken together.
 pub const QUAD: usize = 4;
@@ -19,56 +21,74 @@ pub const QUAD: usize = 4;
 pub const STEPS: usize = 32;
 /// Steps before it that a parabola through three samples needs.
 const BEFORE: usize = 2;
-/// Samples of a block.
-const ROWS: usize = BEFORE + STEPS;
 /// What rounding may add to a bound, of the sum of magnitudes.
-const ROUNDING: f64 = 1e-12;
+pub const ROUNDING: f64 = 1e-12;
 
-/// Samples of a block: numbers that go side by side, a row a step.
-type Samples<const N: usize> = [[f64; N]; ROWS];
-
-/// Modal motion over a block.
-pub struct Block {
-    quads: Vec<Samples<QUAD>>,
-    /// Number of steps that are filled.
-    steps: usize,
-    /// Smallest, largest and largest second difference of every mode.
+/// Modal motion of a passage at steps 0, 1, …; before step 0 there is rest.
+#[derive(Clone, Debug)]
+pub struct Motion {
+    /// Four modes each, a row a step, behind the rows of rest.
+    quads: Vec<Vec<[f64; QUAD]>>,
+    modes: usize,
+    samples: usize,
+    /// Smallest, largest and largest second difference by block and mode.
     bounds: Vec<[f64; 3]>,
 }
 
-impl Block {
-    /// At rest, for so many modes.
-    pub fn new(modes: usize) -> Self {
-        let quads = vec![[[0.0; QUAD]; ROWS]; modes.div_ceil(QUAD)];
-        Self { bounds: vec![[0.0; 3]; modes], quads, steps: 0 }
+impl Motion {
+    /// At rest, for so many modes and samples.
+    pub fn at_rest(modes: usize, samples: usize) -> Self {
+        let quads = vec![vec![[0.0; QUAD]; BEFORE + samples]; modes.div_ceil(QUAD)];
+        Self { quads, modes, samples, bounds: vec![[0.0; 3]; modes * samples.div_ceil(STEPS)] }
     }
 
-    /// Begins the next block, of at most [`STEPS`] steps.
-    pub fn advance(&mut self, steps: usize) {
-        for quad in &mut self.quads {
-            quad.copy_within(self.steps..self.steps + BEFORE, 0);
+    /// Of a history a mode, all equally long.
+    pub fn of(histories: &[Vec<f64>]) -> Self {
+        let samples = histories.first().map_or(0, Vec::len);
+        let mut motion = Self::at_rest(histories.len(), samples);
+        for (quad, histories) in motion.quads.iter_mut().zip(histories.chunks(QUAD)) {
+            for (i, history) in histories.iter().enumerate() {
+                quad[BEFORE..].iter_mut().zip(history).for_each(|(row, x)| row[i] = *x);
+            }
         }
-        self.steps = steps;
+        (0..motion.blocks()).for_each(|block| motion.bound(block));
+        motion
     }
 
-    /// Four modes at the steps of this block, to be filled.
+    /// Number of blocks.
+    pub fn blocks(&self) -> usize {
+        self.samples.div_ceil(STEPS)
+    }
+
+    /// Steps of a block.
+    pub fn steps(&self, block: usize) -> std::ops::Range<usize> {
+        block * STEPS..self.samples.min((block + 1) * STEPS)
+    }
+
+    /// Four modes at some steps, to be filled.
     #[inline(always)]
-    pub fn quad(&mut self, quad: usize) -> &mut [[f64; QUAD]] {
-        &mut self.quads[quad][BEFORE..BEFORE + self.steps]
+    pub fn quad(&mut self, quad: usize, steps: std::ops::Range<usize>) -> &mut [[f64; QUAD]] {
+        &mut self.quads[quad][BEFORE + steps.start..BEFORE + steps.end]
     }
 
-    /// The same, filled.
-    pub fn filled(&self) -> impl Iterator<Item = &[[f64; QUAD]]> {
-        self.quads.iter().map(|quad| &quad[BEFORE..BEFORE + self.steps])
+    /// The history of a mode.
+    pub fn history(&self, mode: usize) -> Vec<f64> {
+        self.quads[mode / QUAD][BEFORE..].iter().map(|row| row[mode % QUAD]).collect()
     }
 
-    /// To be called when all is filled.
+    /// To be called when a block is filled.
     #[inline(always)]
-    pub fn bound(&mut self) {
-        for (quad, bounds) in self.quads.iter().zip(self.bounds.chunks_mut(QUAD)) {
-            let rows = &quad[..BEFORE + self.steps];
-            let [low, high] = range(rows);
-            let mut bend = [0.0; QUAD];
+    pub fn bound(&mut self, block: usize) {
+        let steps = self.steps(block);
+        let bounds = &mut self.bounds[block * self.modes..(block + 1) * self.modes];
+        for (quad, bounds) in self.quads.iter().zip(bounds.chunks_mut(QUAD)) {
+            let rows = &quad[steps.start..BEFORE + steps.end];
+            let (mut low, mut high, mut bend) = (rows[0], rows[0], [0.0; QUAD]);
+            for row in rows {
+                for i in 0..QUAD {
+                    (low[i], high[i]) = (smaller(low[i], row[i]), larger(high[i], row[i]));
+                }
+            }
             for three in rows.windows(3) {
                 for i in 0..QUAD {
                     bend[i] = larger(bend[i], (three[0][i] - 2.0 * three[1][i] + three[2][i]).abs());
@@ -79,76 +99,77 @@ impl Block {
             }
         }
     }
-
-    #[inline(always)]
-    fn outputs<S: Simd>(&self, simd: S, rows: &[[f64; WIDE]], rest: [f64; WIDE], n: usize) -> [f64; WIDE] {
-        let mut y = rest;
-        for (quad, rows) in self.quads.iter().zip(rows.chunks(QUAD)) {
-            add(simd, rows, &quad[n], &mut y);
-        }
-        y
-    }
 }
 
-/// What a group of outputs has beside its modes.
-pub struct Rest(Samples<WIDE>);
-
-impl Default for Rest {
-    fn default() -> Self {
-        Self([[0.0; WIDE]; ROWS])
-    }
-}
-
-impl Rest {
-    /// Fills a block that begins with the step `first` from the values at steps; before step 0 there are zeros.
-    #[inline(always)]
-    pub fn fill(&mut self, first: usize, value: impl Fn(usize) -> [f32; WIDE]) {
-        for (row, n) in self.0.iter_mut().zip(first..) {
-            *row = n.checked_sub(BEFORE).map_or([0.0; WIDE], |n| value(n).map(f64::from));
-        }
-    }
-}
-
-/// A group of outputs over a block: its rows Y by mode, what it has beside the modes, and which step the block begins with.
+/// A group of outputs over a motion: its rows Y by mode, and what it has beside the modes.
 pub struct Group<'a> {
+    /// The motion, bounded.
+    pub motion: &'a Motion,
     /// Y, a row a mode.
     pub rows: &'a [[f64; WIDE]],
     /// Rest, if there is one.
-    pub rest: Option<&'a Rest>,
-    /// The first step.
-    pub first: usize,
-    /// Whether no block comes after this one.
-    pub last: bool,
+    pub rest: Option<Rest<'a>>,
     /// Step, s.
     pub h: f64,
 }
 
 impl Group<'_> {
-    /// Has the outputs watched over a block that was bounded.
+    /// Extremes of the outputs from begin to end.
     #[inline(always)]
-    pub fn watch<S: Simd>(&self, simd: S, block: &Block, watch: &mut Watch) {
-        // The last sample counts as it is: the last block is always looked at.
-        if !self.last && watch.holds(&self.reach(block)) {
-            return;
+    pub fn extremes<S: Simd>(&self, simd: S) -> [Extreme; WIDE] {
+        self.watch(simd).finish(self.motion.samples, self.h)
+    }
+
+    #[inline(always)]
+    fn watch<S: Simd>(&self, simd: S) -> Watch {
+        let mut watch = Watch::default();
+        let Some(last) = self.motion.blocks().checked_sub(1) else { return watch };
+        let mut reaches = Vec::with_capacity(last);
+        // No closures: what they hold would not be compiled for the instruction set.
+        for block in 0..last {
+            reaches.push(self.reach(block));
         }
-        let y = |n: usize| {
-            let rest = match self.rest {
-                Some(rest) => rest.0[n],
-                None => [0.0; WIDE],
-            };
-            block.outputs(simd, self.rows, rest, n)
-        };
-        watch.resume(y(0), y(1));
-        for n in 0..block.steps {
-            watch.look_with(simd, &y(BEFORE + n), self.first + n, self.h);
+        let first = promising(&reaches);
+        for block in first.into_iter().flatten() {
+            self.look(simd, block, &mut watch);
+        }
+        for (block, reach) in reaches.iter().enumerate() {
+            if !first.contains(&Some(block)) && !watch.holds(reach) {
+                self.look(simd, block, &mut watch);
+            }
+        }
+        // The last sample counts as it is: the last block is always looked at.
+        self.look(simd, last, &mut watch);
+        watch
+    }
+
+    #[inline(always)]
+    fn look<S: Simd>(&self, simd: S, block: usize, watch: &mut Watch) {
+        let steps = self.motion.steps(block);
+        watch.resume(self.outputs(simd, steps.start), self.outputs(simd, steps.start + 1));
+        for n in steps {
+            watch.look_with(simd, &self.outputs(simd, BEFORE + n), n, self.h);
         }
     }
 
-    /// Bounds from below and above of all parabolas through three samples.
+    /// The outputs at a row, which lies two steps before the step of the same number.
     #[inline(always)]
-    fn reach(&self, block: &Block) -> [[f64; WIDE]; 2] {
-        let [mut low, mut high] = match self.rest {
-            Some(rest) => range(&rest.0[..BEFORE + block.steps]),
+    fn outputs<S: Simd>(&self, simd: S, row: usize) -> [f64; WIDE] {
+        let mut y = match &self.rest {
+            Some(rest) if row > BEFORE => rest.at(row - BEFORE),
+            _ => [0.0; WIDE],
+        };
+        for (quad, rows) in self.motion.quads.iter().zip(self.rows.chunks(QUAD)) {
+            add(simd, rows, &quad[row], &mut y);
+        }
+        y
+    }
+
+    /// Bounds from below and above of all parabolas through three samples of a block.
+    #[inline(always)]
+    fn reach(&self, block: usize) -> [[f64; WIDE]; 2] {
+        let [mut low, mut high] = match &self.rest {
+            Some(rest) => rest.range(self.motion.steps(block), BEFORE),
             None => [[0.0; WIDE]; 2],
         };
         let (mut slack, mut size) = ([0.0; WIDE], [0.0; WIDE]);
@@ -156,7 +177,8 @@ impl Group<'_> {
             slack[k] = 0.25 * (high[k] - low[k]);
             size[k] = larger(low[k].abs(), high[k].abs());
         }
-        for (row, [least, most, bend]) in self.rows.iter().zip(&block.bounds) {
+        let bounds = &self.motion.bounds[block * self.motion.modes..(block + 1) * self.motion.modes];
+        for (row, [least, most, bend]) in self.rows.iter().zip(bounds) {
             let far = larger(least.abs(), most.abs());
             for k in 0..WIDE {
                 let [a, b] = [row[k] * least, row[k] * most];
@@ -175,17 +197,13 @@ impl Group<'_> {
     }
 }
 
-/// Smallest and largest of every column.
-#[inline(always)]
-fn range<const N: usize>(rows: &[[f64; N]]) -> [[f64; N]; 2] {
-    let first = rows.first().copied().unwrap_or([0.0; N]);
-    let (mut low, mut high) = (first, first);
-    for row in rows {
-        for i in 0..N {
-            (low[i], high[i]) = (smaller(low[i], row[i]), larger(high[i], row[i]));
-        }
-    }
-    [low, high]
+/// Blocks in which the outputs of a group reach highest and lowest, by the sum of their bounds.
+fn promising(reaches: &[[[f64; WIDE]; 2]]) -> [Option<usize>; 2] {
+    let sum = |block: usize, side: usize| reaches[block][side].iter().sum::<f64>();
+    let blocks = 0..reaches.len();
+    let lowest = blocks.clone().min_by(|a, b| sum(*a, 0).total_cmp(&sum(*b, 0)));
+    let highest = blocks.max_by(|a, b| sum(*a, 1).total_cmp(&sum(*b, 1)));
+    [highest, lowest.filter(|_| lowest != highest)]
 }
 
 /// The larger number: one instruction, where `f64::max` takes several for the sake of NaN.
@@ -202,7 +220,7 @@ pub fn smaller(a: f64, b: f64) -> f64 {
 
 /// y ← y + Σ_j row_j x_j, added in the order of j.
 #[inline(always)]
-pub fn add<S: Simd>(simd: S, rows: &[[f64; WIDE]], x: &[f64], y: &mut [f64; WIDE]) {
+fn add<S: Simd>(simd: S, rows: &[[f64; WIDE]], x: &[f64], y: &mut [f64; WIDE]) {
     for (row, x) in rows.iter().zip(x) {
         let x = simd.splat_f64s(*x);
         for (y, row) in S::as_mut_simd_f64s(y).0.iter_mut().zip(S::as_simd_f64s(row).0) {
@@ -214,40 +232,27 @@ pub fn add<S: Simd>(simd: S, rows: &[[f64; WIDE]], x: &[f64], y: &mut [f64; WIDE
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::extreme::Extreme;
-
-    const H: f64 = 0.01;
-
-    /// Eight outputs of five modes that swell and decay, with something beside them; every block looked at, or only those that
-    /// are needed. Also how many were passed over.
-    fn extremes(all: bool) -> ([Extreme; WIDE], usize) {
-        let rows: Vec<[f64; WIDE]> =
-            (0..5).map(|j| std::array::from_fn(|k| ((3 * j + k) as f64).sin() / (j + 1) as f64)).collect();
-        let swell = |n: usize| (-((n as f64 - 400.0) / 150.0).powi(2)).exp();
-        let motion = |n: usize, j: usize| swell(n) * (0.02 * (j * j + 1) as f64 * n as f64).sin();
-        let (mut block, mut rest, mut watch) = (Block::new(5), Rest::default(), Watch::default());
-        let (samples, mut passed) = (1000, 0);
-        for first in (1..samples).step_by(STEPS) {
-            let steps = STEPS.min(samples - first);
-            block.advance(steps);
-            for quad in 0..2 {
-                let values = |n: usize| std::array::from_fn(|i| motion(first + n, QUAD * quad + i));
-                block.quad(quad).iter_mut().enumerate().for_each(|(n, row)| *row = values(n));
-            }
-            block.bound();
-            rest.fill(first, |n| [0.1 * swell(n) as f32; WIDE]);
-            let last = all || first + steps == samples;
-            let group = Group { rows: &rows, rest: Some(&rest), first, last, h: H };
-            passed += usize::from(!last && watch.holds(&group.reach(&block)));
-            group.watch(pulp::Scalar::new(), &block, &mut watch);
-        }
-        (watch.finish(samples, H), passed)
-    }
 
     #[test]
     fn blocks_that_are_passed_over_take_no_bit_of_an_extreme_away() {
-        let ((all, _), (few, passed)) = (extremes(true), extremes(false));
-        assert_eq!(all, few);
-        assert!(passed > 10 && all.iter().all(|one| one.max > 0.1 && one.min < -0.1), "{passed} {all:?}");
+        const H: f64 = 0.01;
+        let samples = 1000;
+        // Eight outputs of five modes that swell and decay.
+        let rows: Vec<[f64; WIDE]> =
+            (0..5).map(|j| std::array::from_fn(|k| ((3 * j + k) as f64).sin() / (j + 1) as f64)).collect();
+        let swell = |n: usize| (-((n as f64 - 400.0) / 150.0).powi(2)).exp();
+        let mode = |j: usize| (0..samples).map(|n| swell(n) * (0.02 * (j * j + 1) as f64 * n as f64).sin()).collect();
+        let histories: Vec<Vec<f64>> = (0..5).map(mode).collect();
+        let motion = Motion::of(&histories);
+        let group = Group { motion: &motion, rows: &rows, rest: None, h: H };
+        let watch = group.watch(pulp::Scalar::new());
+        let passed = (0..motion.blocks()).filter(|block| watch.holds(&group.reach(*block))).count();
+        for (k, found) in watch.finish(samples, H).iter().enumerate() {
+            let y = |n: usize| rows.iter().zip(&histories).fold(0.0, |y, (row, x)| y + row[k] * x[n]);
+            let history: Vec<f64> = (0..samples).map(y).collect();
+            assert_eq!(*found, Extreme::of(&history, H));
+            assert!(found.max > 0.1 && found.min < -0.1, "{found:?}");
+        }
+        assert!(passed > 10, "{passed}");
     }
 }

@@ -3,10 +3,10 @@
 
 use pulp::{Simd, WithSimd};
 
-use crate::block::{Block, Group, QUAD, STEPS};
-use crate::extreme::{Extreme, WIDE, Watch};
-use crate::load::TrainLoad;
-use crate::march::{March, Visit};
+use crate::block::{Group, Motion};
+use crate::extreme::{Extreme, WIDE};
+use crate::load::{Rest, TrainLoad};
+use crate::march::{March, Motions};
 use crate::modal::ModalBridge;
 
 /// Modal motions of a passage at steps 0 (at rest), 1, …
@@ -23,49 +23,17 @@ pub struct Histories<'a> {
     pub accelerations: Vec<Vec<f64>>,
 }
 
-struct Kept {
-    positions: Vec<Vec<f64>>,
-    accelerations: Vec<Vec<f64>>,
-}
-
-impl Visit for Kept {
-    fn block<S: Simd>(&mut self, _simd: S, _first: usize, q: &mut Block, a: &mut Block) {
-        for (histories, block) in [(&mut self.positions, q), (&mut self.accelerations, a)] {
-            for (histories, rows) in histories.chunks_mut(QUAD).zip(block.filled()) {
-                let modes = histories.iter_mut().enumerate();
-                modes.for_each(|(i, history)| history.extend(rows.iter().map(|row| row[i])));
-            }
-        }
-    }
-}
-
 impl<'a> Histories<'a> {
-    pub(crate) fn of(bridge: &'a ModalBridge, load: &'a TrainLoad, march: &March, stride: usize) -> Self {
-        let start = || {
-            let mut history = Vec::with_capacity(march.steps + 1);
-            history.push(0.0);
-            history
-        };
-        let all = || (0..bridge.modes().len()).map(|_| start()).collect::<Vec<_>>();
-        let mut kept = Kept { positions: all(), accelerations: all() };
-        march.visited(&mut kept);
-        Self { bridge, load, stride, h: march.h, positions: kept.positions, accelerations: kept.accelerations }
+    pub(crate) fn of(bridge: &'a ModalBridge, load: &'a TrainLoad, march: &March, motions: &Motions) -> Self {
+        let all = |motion: &Motion| (0..bridge.modes().len()).map(|mode| motion.history(mode)).collect();
+        let (stride, h) = (march.stride(), march.h);
+        Self { bridge, load, stride, h, positions: all(&motions.q), accelerations: all(&motions.a) }
     }
 
     /// Number of samples.
     #[must_use]
     pub fn samples(&self) -> usize {
         self.positions.first().map_or(0, Vec::len)
-    }
-
-    /// The same with `filter(h, histories)` applied to all modal accelerations, and to nothing else.
-    ///
-    /// # Errors
-    /// Those of the filter.
-    pub fn filtered<E>(&self, filter: impl FnOnce(f64, &mut [Vec<f64>]) -> Result<(), E>) -> Result<Self, E> {
-        let mut filtered = self.clone();
-        filter(self.h, &mut filtered.accelerations)?;
-        Ok(filtered)
     }
 
     /// History of an output of the bridge.
@@ -81,7 +49,8 @@ impl<'a> Histories<'a> {
         let (group, lane) = (place / WIDE, place % WIDE);
         let mut y = vec![0.0; self.samples()];
         if output < positions {
-            y.iter_mut().enumerate().for_each(|(n, y)| *y = self.rest(n, group)[lane]);
+            let rest = Rest { load: self.load, group, stride: self.stride };
+            y.iter_mut().enumerate().skip(1).for_each(|(n, y)| *y = rest.at(n)[lane]);
         }
         for (row, history) in rows[group * modes..(group + 1) * modes].iter().zip(source) {
             y.iter_mut().zip(history).for_each(|(y, x)| *y += row[lane] * x);
@@ -89,52 +58,40 @@ impl<'a> Histories<'a> {
         y
     }
 
-    /// Extremes of all accelerations, in the order of the bridge's outputs behind [`ModalBridge::positions`].
-    #[must_use]
-    pub fn accelerations(&self) -> Vec<Extreme> {
-        let modes = self.bridge.modes().len();
-        let count = self.bridge.outputs().len() - self.bridge.positions();
-        let groups = self.bridge.acceleration_rows().chunks_exact(modes.max(1));
-        let mut watches = vec![Watch::default(); groups.len()];
-        pulp::Arch::new().dispatch(Accelerations { histories: self, watches: &mut watches });
-        let found = watches.iter().flat_map(|watch| watch.finish(self.samples(), self.h));
-        found.take(count).collect()
-    }
-
-    fn rest(&self, n: usize, group: usize) -> [f64; WIDE] {
-        let (row, groups) = (n * self.stride, self.load.rest.len() / self.load.rows.max(1));
-        if row < self.load.rows { self.load.rest[row * groups + group].map(f64::from) } else { [0.0; WIDE] }
+    /// Extremes of all accelerations after `filter(h, histories)` of the modal ones, in the order of the bridge's outputs behind
+    /// [`ModalBridge::positions`].
+    ///
+    /// # Errors
+    /// Those of the filter.
+    pub fn accelerations<E>(
+        &self,
+        filter: impl FnOnce(f64, &mut [Vec<f64>]) -> Result<(), E>,
+    ) -> Result<Vec<Extreme>, E> {
+        let mut filtered = self.accelerations.clone();
+        filter(self.h, &mut filtered)?;
+        let motion = Motion::of(&filtered);
+        Ok(pulp::Arch::new().dispatch(Accelerations { bridge: self.bridge, motion: &motion, h: self.h }))
     }
 }
 
-/// The accelerations of all places, watched under an instruction set; all of them give the same bits.
-struct Accelerations<'a, 'b> {
-    histories: &'a Histories<'b>,
-    watches: &'a mut [Watch],
+/// Extremes of the accelerations of all places under an instruction set; all of them give the same bits.
+struct Accelerations<'a> {
+    bridge: &'a ModalBridge,
+    motion: &'a Motion,
+    h: f64,
 }
 
-impl WithSimd for Accelerations<'_, '_> {
-    type Output = ();
+impl WithSimd for Accelerations<'_> {
+    type Output = Vec<Extreme>;
 
     #[inline(always)]
-    fn with_simd<S: Simd>(self, simd: S) {
-        let Histories { bridge, accelerations, h, .. } = self.histories;
-        let (modes, samples) = (accelerations.len(), self.histories.samples());
-        let mut block = Block::new(modes);
-        for first in (0..samples).step_by(STEPS) {
-            let steps = STEPS.min(samples - first);
-            block.advance(steps);
-            for (quad, histories) in accelerations.chunks(QUAD).enumerate() {
-                for (i, history) in histories.iter().enumerate() {
-                    let now = &history[first..first + steps];
-                    block.quad(quad).iter_mut().zip(now).for_each(|(row, a)| row[i] = *a);
-                }
-            }
-            block.bound();
-            let last = first + steps == samples;
-            for (watch, rows) in self.watches.iter_mut().zip(bridge.acceleration_rows().chunks(modes.max(1))) {
-                Group { rows, rest: None, first, last, h: *h }.watch(simd, &block, watch);
-            }
+    fn with_simd<S: Simd>(self, simd: S) -> Vec<Extreme> {
+        let Self { bridge, motion, h } = self;
+        let mut found = Vec::new();
+        for rows in bridge.acceleration_rows().chunks(bridge.modes().len().max(1)) {
+            found.extend(Group { motion, rows, rest: None, h }.extremes(simd));
         }
+        found.truncate(bridge.outputs().len() - bridge.positions());
+        found
     }
 }

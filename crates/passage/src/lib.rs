@@ -3,7 +3,7 @@
 //! ```text
 //! BridgeSpec ─ ModalBridge ─┐
 //! ForceTrain ───────────────┴─ Passage ─ at(speed) ────────▶ Response: an Extreme for every output
-//!                                 ├─ histories(speed) ─────▶ Histories ─ filtered(…) ─ accelerations()
+//!                                 ├─ histories(speed) ─────▶ Histories ─ accelerations(filter)
 //!                                 └─ statics() ────────────▶ static extremes of the same train at the same places
 //! ```
 //!
@@ -15,8 +15,8 @@
 //! same train, which φ′ needs. A row of a table is one output, one statistic (`max`, `min`, or `abs-max` by
 //! [`Extreme::largest`]) and its static value.
 //!
-//! **Filters.** [`Passage::histories`] gives the few modal accelerations; [`Histories::filtered`] applies a linear filter to
-//! them, and [`Histories::accelerations`] combines them at all deck points.
+//! **Filters.** [`Passage::histories`] gives the few modal accelerations; [`Histories::accelerations`] applies a linear filter to
+//! them and combines them at all deck points.
 //!
 //! **Bridges without such modes** (dashpots, damping matrices, FMUs of other programs): [`one_axle`] runs one axle a speed
 //! over a [`ttb_contract::Subsystem`], and every train follows by superposition; [`own::OwnBridge`] is the project's bridge
@@ -41,6 +41,7 @@ pub mod recursion;
 mod sampled;
 mod source;
 pub mod statics;
+mod sum;
 
 pub use extreme::Extreme;
 pub use history::Histories;

@@ -7,31 +7,48 @@
 //! Shapes of modes and influence lines of a beam without distributed load are cubic between nodes and loaded places, so
 //! that four values a piece give them exactly.
 
+use crate::block::QUAD;
+
+/// c of four functions on a piece, by power.
+pub type Cubics = [[f64; QUAD]; 4];
+
 /// Several functions on common pieces; zero outside of all.
 #[derive(Clone, Debug)]
 pub struct Lines {
     count: usize,
     breaks: Vec<f64>,
-    /// By piece, power, line.
-    coefficients: Vec<f64>,
+    /// By piece, then four functions each; those that fill up the last four are zero.
+    cubics: Vec<Cubics>,
 }
 
 /// Where a piece is sampled, as ξ: inside it, so that a jump at its ends is no matter.
 const SAMPLED: [f64; 4] = [0.05, 0.35, 0.65, 0.95];
 
 impl Lines {
+    /// Of the coefficients on every piece: `cubic(piece)` gives those of a function by its number.
+    fn made<F: Fn(usize) -> [f64; 4]>(breaks: Vec<f64>, count: usize, mut cubic: impl FnMut(usize) -> F) -> Self {
+        let mut cubics = Vec::with_capacity(breaks.len() * count.div_ceil(QUAD));
+        for piece in 0..breaks.len().saturating_sub(1) {
+            let of = cubic(piece);
+            for first in (0..count).step_by(QUAD) {
+                let four: [[f64; 4]; QUAD] =
+                    std::array::from_fn(|i| if first + i < count { of(first + i) } else { [0.0; 4] });
+                cubics.push(std::array::from_fn(|power| four.map(|c| c[power])));
+            }
+        }
+        Self { count, breaks, cubics }
+    }
+
     /// Samples `count` functions on the pieces between `breaks` (rising): `values(piece, x)` gives one number a function.
     #[must_use]
     pub fn sampled(breaks: Vec<f64>, count: usize, mut values: impl FnMut(usize, f64) -> Vec<f64>) -> Self {
         let power = newton_to_powers();
-        let mut coefficients = Vec::with_capacity(breaks.len() * 4 * count);
-        for (piece, ends) in breaks.windows(2).enumerate() {
-            let samples = SAMPLED.map(|xi| values(piece, ends[0] + xi * (ends[1] - ends[0])));
-            for row in &power {
-                coefficients.extend((0..count).map(|l| (0..4).map(|i| row[i] * samples[i][l]).sum::<f64>()));
-            }
-        }
-        Self { count, breaks, coefficients }
+        let ends: Vec<[f64; 2]> = breaks.windows(2).map(|ends| [ends[0], ends[1]]).collect();
+        Self::made(breaks, count, |piece| {
+            let [a, b] = ends[piece];
+            let samples = SAMPLED.map(|xi| values(piece, a + xi * (b - a)));
+            move |l| power.map(|row| (0..4).map(|i| row[i] * samples[i][l]).sum())
+        })
     }
 
     /// Through values at the breaks (rising), one list a function, with the slopes of the parabola through a break and its
@@ -39,21 +56,15 @@ impl Lines {
     #[must_use]
     pub fn through(breaks: Vec<f64>, functions: &[Vec<f64>]) -> Self {
         let slopes: Vec<Vec<f64>> = functions.iter().map(|y| slopes(&breaks, y)).collect();
-        let count = functions.len();
-        let mut coefficients = Vec::with_capacity(breaks.len() * 4 * count);
-        for (piece, ends) in breaks.windows(2).enumerate() {
-            let length = ends[1] - ends[0];
-            let cubic = functions.iter().zip(&slopes).map(|(y, m)| {
-                let [y0, y1] = [y[piece], y[piece + 1]];
-                let [m0, m1] = [m[piece] * length, m[piece + 1] * length];
+        let lengths: Vec<f64> = breaks.windows(2).map(|ends| ends[1] - ends[0]).collect();
+        Self::made(breaks, functions.len(), |piece| {
+            let (length, slopes) = (lengths[piece], &slopes);
+            move |l| {
+                let [y0, y1] = [functions[l][piece], functions[l][piece + 1]];
+                let [m0, m1] = [slopes[l][piece] * length, slopes[l][piece + 1] * length];
                 [y0, m0, 3.0 * (y1 - y0) - 2.0 * m0 - m1, 2.0 * (y0 - y1) + m0 + m1]
-            });
-            let cubic: Vec<[f64; 4]> = cubic.collect();
-            for power in 0..4 {
-                coefficients.extend(cubic.iter().map(|c| c[power]));
             }
-        }
-        Self { count, breaks, coefficients }
+        })
     }
 
     /// Number of functions.
@@ -62,10 +73,24 @@ impl Lines {
         self.count
     }
 
-    /// Where they begin and end, m.
+    /// Where the pieces begin and end, m, rising.
+    #[must_use]
+    pub fn breaks(&self) -> &[f64] {
+        &self.breaks
+    }
+
+    /// Where the functions begin and end, m.
     #[must_use]
     pub fn extent(&self) -> [f64; 2] {
         [self.breaks[0], self.breaks[self.breaks.len() - 1]]
+    }
+
+    /// Coefficients of all functions on a piece, four functions at a time.
+    #[inline(always)]
+    #[must_use]
+    pub fn cubics(&self, piece: usize) -> &[Cubics] {
+        let quads = self.count.div_ceil(QUAD);
+        &self.cubics[quads * piece..quads * (piece + 1)]
     }
 
     /// The same functions of the distance from the far end: y(a + b − x).
@@ -73,85 +98,51 @@ impl Lines {
     pub fn mirrored(&self) -> Self {
         let [a, b] = self.extent();
         let breaks = self.breaks.iter().rev().map(|x| a + b - x).collect();
-        let n = self.count;
-        let mut coefficients = Vec::with_capacity(self.coefficients.len());
-        for piece in self.coefficients.chunks_exact(4 * n.max(1)).rev() {
-            let c = |power: usize, l: usize| piece[power * n + l];
-            coefficients.extend((0..n).map(|l| c(0, l) + c(1, l) + c(2, l) + c(3, l)));
-            coefficients.extend((0..n).map(|l| -(c(1, l) + 2.0 * c(2, l) + 3.0 * c(3, l))));
-            coefficients.extend((0..n).map(|l| c(2, l) + 3.0 * c(3, l)));
-            coefficients.extend((0..n).map(|l| -c(3, l)));
-        }
-        Self { count: n, breaks, coefficients }
+        let pieces = (0..self.breaks.len().saturating_sub(1)).rev();
+        let turned = |[c0, c1, c2, c3]: &Cubics| -> Cubics {
+            let by_lane = |power: fn([f64; 4]) -> f64| std::array::from_fn(|l| power([c0[l], c1[l], c2[l], c3[l]]));
+            [
+                by_lane(|[c0, c1, c2, c3]| c0 + c1 + c2 + c3),
+                by_lane(|[_, c1, c2, c3]| -(c1 + 2.0 * c2 + 3.0 * c3)),
+                by_lane(|[_, _, c2, c3]| c2 + 3.0 * c3),
+                by_lane(|[_, _, _, c3]| -c3),
+            ]
+        };
+        let cubics = pieces.flat_map(|piece| self.cubics(piece)).map(turned);
+        Self { count: self.count, breaks, cubics: cubics.collect() }
     }
 
     /// The functions from number `first` on times a factor each.
     #[must_use]
     pub fn scaled(mut self, first: usize, factors: &[f64]) -> Self {
-        let rows = self.coefficients.chunks_exact_mut(self.count.max(1));
-        rows.for_each(|row| row[first..].iter_mut().zip(factors).for_each(|(c, factor)| *c *= factor));
+        for four in self.cubics.chunks_exact_mut(self.count.div_ceil(QUAD).max(1)) {
+            for (l, factor) in (first..).zip(factors) {
+                four[l / QUAD].iter_mut().for_each(|c| c[l % QUAD] *= factor);
+            }
+        }
         self
     }
 
-    /// The piece at x, the one before it at a break.
-    fn piece(&self, x: f64) -> usize {
-        self.breaks.partition_point(|b| *b < x).saturating_sub(1).min(self.breaks.len().saturating_sub(2))
-    }
-
-    /// All functions at x; zero outside.
+    /// All functions at x, on a break as before it; zero outside.
     #[must_use]
     pub fn at(&self, x: f64) -> Vec<f64> {
-        let mut y = vec![0.0; self.count];
-        self.add(&[x], 1.0, &mut y);
+        let [begin, end] = self.extent();
+        if x < begin || x > end {
+            return vec![0.0; self.count];
+        }
+        let piece = self.breaks.partition_point(|b| *b < x).saturating_sub(1).min(self.breaks.len() - 2);
+        let [a, b] = [self.breaks[piece], self.breaks[piece + 1]];
+        let xi = (x - a) / (b - a);
+        let mut y: Vec<f64> = self.cubics(piece).iter().flat_map(|four| value(four, xi)).collect();
+        y.truncate(self.count);
         y
     }
-
-    /// Rows of `out` ← rows + factor · y(x), one row of all functions for each of the rising `places` on the deck.
-    pub fn add(&self, places: &[f64], factor: f64, out: &mut [f64]) {
-        pulp::Arch::new().dispatch(Add { lines: self, places, factor, out });
-    }
-
-    #[inline(always)]
-    fn add_each(&self, places: &[f64], factor: f64, out: &mut [f64]) {
-        let n = self.count;
-        let [begin, end] = self.extent();
-        let mut piece = places.first().map_or(0, |x| self.piece(*x));
-        for (x, row) in places.iter().zip(out.chunks_exact_mut(n.max(1))) {
-            if *x < begin || *x > end {
-                continue;
-            }
-            while piece + 2 < self.breaks.len() && *x > self.breaks[piece + 1] {
-                piece += 1;
-            }
-            let [a, b] = [self.breaks[piece], self.breaks[piece + 1]];
-            let xi = (x - a) / (b - a);
-            let [w1, w2, w3] = [factor * xi, factor * xi * xi, factor * xi * xi * xi];
-            let c = &self.coefficients[4 * n * piece..4 * n * (piece + 1)];
-            let (c0, c) = c.split_at(n);
-            let (c1, c) = c.split_at(n);
-            let (c2, c3) = c.split_at(n);
-            for ((((y, c0), c1), c2), c3) in row.iter_mut().zip(c0).zip(c1).zip(c2).zip(c3) {
-                *y += (factor * c0 + w1 * c1) + (w2 * c2 + w3 * c3);
-            }
-        }
-    }
 }
 
-/// [`Lines::add`] under an instruction set.
-struct Add<'a> {
-    lines: &'a Lines,
-    places: &'a [f64],
-    factor: f64,
-    out: &'a mut [f64],
-}
-
-impl pulp::NullaryFnOnce for Add<'_> {
-    type Output = ();
-
-    #[inline(always)]
-    fn call(self) {
-        self.lines.add_each(self.places, self.factor, self.out);
-    }
+/// c₀ + c₁ξ + c₂ξ² + c₃ξ³ of neighbouring functions.
+#[inline(always)]
+pub fn value<const N: usize>([c0, c1, c2, c3]: &[[f64; N]; 4], xi: f64) -> [f64; N] {
+    std::array::from_fn(|l| c0[l] + xi * (c1[l] + xi * (c2[l] + xi * c3[l])))
 }
 
 /// Rows that give the four coefficients from the values at [`SAMPLED`].

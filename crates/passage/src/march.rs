@@ -1,12 +1,12 @@
-//! A passage step by step: modes by the exact recursion, outputs combined and reduced block by block.
+//! A passage step by step: modes by the exact recursion, then outputs combined and reduced.
 //!
 //! The instruction set is chosen at run time; the order of additions and their rounding are the same with all of them.
 
-use pulp::{Simd, WithSimd};
+use pulp::{NullaryFnOnce, Simd, WithSimd};
 
-use crate::block::{Block, Group, QUAD, Rest, STEPS};
-use crate::extreme::{Extreme, WIDE, Watch};
-use crate::load::TrainLoad;
+use crate::block::{Group, Motion, QUAD};
+use crate::extreme::{Extreme, WIDE};
+use crate::load::{Rest, TrainLoad};
 use crate::modal::ModalBridge;
 use crate::recursion::Coefficients;
 
@@ -79,96 +79,88 @@ impl<'a> March<'a> {
         quads.collect()
     }
 
-    /// Extremes of all outputs, in the bridge's order.
+    /// q and q̈ at rest and after every step.
     #[must_use]
-    pub fn extremes(&self) -> Vec<Extreme> {
-        let positions = self.bridge.positions();
-        let accelerations = self.bridge.outputs().len() - positions;
-        let [slow, fast] = [positions, accelerations].map(|n| vec![Watch::default(); n.div_ceil(WIDE)]);
-        let mut extremes = Extremes { march: self, slow, fast, rest: Rest::default() };
-        pulp::Arch::new().dispatch(Job { march: self, visit: &mut extremes });
-        let found = |watches: &[Watch], count: usize| -> Vec<Extreme> {
-            watches.iter().flat_map(|watch| watch.finish(self.steps + 1, self.h)).take(count).collect()
-        };
-        [found(&extremes.slow, positions), found(&extremes.fast, accelerations)].concat()
+    pub fn motions(&self) -> Motions {
+        let at_rest = || Motion::at_rest(self.bridge.modes().len(), self.steps + 1);
+        let mut motions = Motions { q: at_rest(), a: at_rest() };
+        pulp::Arch::new().dispatch(Run { march: self, motions: &mut motions });
+        motions
     }
 
-    /// Runs with the modal motions of every block handed to `visit`.
-    pub fn visited(&self, visit: &mut impl Visit) {
-        pulp::Arch::new().dispatch(Job { march: self, visit });
+    /// Extremes of all outputs, in the bridge's order, of its motions.
+    #[must_use]
+    pub fn extremes(&self, motions: &Motions) -> Vec<Extreme> {
+        pulp::Arch::new().dispatch(Extremes { march: self, motions })
     }
+}
+
+/// Modal motions of a passage.
+pub struct Motions {
+    /// q.
+    pub q: Motion,
+    /// q̈.
+    pub a: Motion,
+}
+
+/// A march under an instruction set.
+struct Run<'a, 'b> {
+    march: &'a March<'b>,
+    motions: &'a mut Motions,
+}
+
+impl NullaryFnOnce for Run<'_, '_> {
+    type Output = ();
 
     #[inline(always)]
-    fn run<S: Simd>(&self, simd: S, visit: &mut impl Visit) {
-        let (mut quads, modes) = (self.quads(), self.bridge.modes().len());
-        let (forces, _) = self.load.forces.as_chunks::<QUAD>();
-        let (mut q, mut a) = (Block::new(modes), Block::new(modes));
+    fn call(self) {
+        let Self { march, motions: Motions { q, a } } = self;
+        let mut quads = march.quads();
+        let (forces, _) = march.load.forces.as_chunks::<QUAD>();
         let across = quads.len();
-        for begin in (0..self.steps).step_by(STEPS) {
-            let steps = STEPS.min(self.steps - begin);
-            q.advance(steps);
-            a.advance(steps);
+        for block in 0..q.blocks() {
+            let steps = q.steps(block).start.max(1)..q.steps(block).end;
             for (j, quad) in quads.iter_mut().enumerate() {
                 // Zero behind the train.
-                let force = |n: usize| forces.get(n * self.stride * across + j).unwrap_or(&[0.0; QUAD]);
-                let mut before = force(begin);
-                for (n, (q, a)) in (begin + 1..).zip(q.quad(j).iter_mut().zip(a.quad(j))) {
+                let force = |n: usize| forces.get(n * march.stride * across + j).unwrap_or(&[0.0; QUAD]);
+                let mut before = force(steps.start - 1);
+                for (n, (q, a)) in steps.clone().zip(q.quad(j, steps.clone()).iter_mut().zip(a.quad(j, steps.clone())))
+                {
                     let now = force(n);
                     quad.step(before, now);
                     (*q, *a) = (quad.q, quad.a);
                     before = now;
                 }
             }
-            visit.block(simd, begin + 1, &mut q, &mut a);
+            q.bound(block);
+            a.bound(block);
         }
     }
 }
 
-/// What is done with modal motions.
-pub trait Visit {
-    /// q and q̈ of the steps from `first` on.
-    fn block<S: Simd>(&mut self, simd: S, first: usize, q: &mut Block, a: &mut Block);
-}
-
-/// Reduces all outputs.
+/// Reduces all outputs under an instruction set.
 struct Extremes<'a, 'b> {
     march: &'a March<'b>,
-    slow: Vec<Watch>,
-    fast: Vec<Watch>,
-    rest: Rest,
+    motions: &'a Motions,
 }
 
-impl Visit for Extremes<'_, '_> {
-    #[inline(always)]
-    fn block<S: Simd>(&mut self, simd: S, first: usize, q: &mut Block, a: &mut Block) {
-        let March { bridge, load, stride, h, steps } = *self.march;
-        let (groups, last) = (self.slow.len(), first + STEPS > steps);
-        q.bound();
-        a.bound();
-        let modes = bridge.modes().len().max(1);
-        for (group, (watch, rows)) in self.slow.iter_mut().zip(bridge.position_rows().chunks(modes)).enumerate() {
-            // A history begins at rest, whatever the first axle does to the place where it enters.
-            let at = |n: usize| if n == 0 { None } else { load.rest.get(n * stride * groups + group) };
-            self.rest.fill(first, |n| at(n).copied().unwrap_or_default());
-            Group { rows, rest: Some(&self.rest), first, last, h }.watch(simd, q, watch);
-        }
-        for (watch, rows) in self.fast.iter_mut().zip(bridge.acceleration_rows().chunks(modes)) {
-            Group { rows, rest: None, first, last, h }.watch(simd, a, watch);
-        }
-    }
-}
-
-/// A march under an instruction set.
-struct Job<'a, 'b, V> {
-    march: &'a March<'b>,
-    visit: &'a mut V,
-}
-
-impl<V: Visit> WithSimd for Job<'_, '_, V> {
-    type Output = ();
+impl WithSimd for Extremes<'_, '_> {
+    type Output = Vec<Extreme>;
 
     #[inline(always)]
-    fn with_simd<S: Simd>(self, simd: S) {
-        self.march.run(simd, self.visit);
+    fn with_simd<S: Simd>(self, simd: S) -> Vec<Extreme> {
+        let Self { march: &March { bridge, load, stride, h, .. }, motions } = self;
+        let (modes, positions) = (bridge.modes().len().max(1), bridge.positions());
+        let mut extremes = Vec::with_capacity(bridge.outputs().len() + WIDE);
+        for (group, rows) in bridge.position_rows().chunks(modes).enumerate() {
+            let rest = Some(Rest { load, group, stride });
+            extremes.extend(Group { motion: &motions.q, rows, rest, h }.extremes(simd));
+        }
+        extremes.truncate(positions);
+        for rows in bridge.acceleration_rows().chunks(modes) {
+            extremes.extend(Group { motion: &motions.a, rows, rest: None, h }.extremes(simd));
+        }
+        extremes.truncate(bridge.outputs().len());
+        extremes
     }
 }

@@ -5,7 +5,7 @@ use ttb_trains::ForceTrain;
 use crate::extreme::Extreme;
 use crate::history::Histories;
 use crate::load::{Heading, TrainLoad};
-use crate::march::March;
+use crate::march::{March, Motions};
 use crate::modal::ModalBridge;
 
 /// A train over a modal bridge: made once, asked for many speeds, also from several threads.
@@ -69,25 +69,39 @@ impl<'a> Passage<'a> {
     /// and speed alone, not on other speeds.
     #[must_use]
     pub fn at(&self, speed: f64) -> Response {
-        let run = |load: &TrainLoad| {
-            let march = self.march(load, speed);
-            Response { speed, step: march.h, steps: march.steps, extremes: march.extremes() }
-        };
-        // On the shared grid a step of a slower train would be too long.
-        let finer = libm::log2(self.load.grid / (speed * self.bridge.longest_step())).ceil();
-        if finer > 0.0 {
-            let grid = self.load.grid * 0.5_f64.powi(finer as i32);
-            return run(&TrainLoad::new(self.bridge, &self.train, self.heading, grid));
+        if let Some(grid) = self.finer(speed) {
+            return self.of(&TrainLoad::new(self.bridge, &self.train, self.heading, grid), speed).0;
         }
-        run(&self.load)
+        self.of(&self.load, speed).0
+    }
+
+    /// The same with the modal histories, which are those of [`Self::histories`].
+    #[must_use]
+    pub fn with_histories(&self, speed: f64) -> (Response, Histories<'_>) {
+        if self.finer(speed).is_some() {
+            return (self.at(speed), self.histories(speed));
+        }
+        let (response, motions) = self.of(&self.load, speed);
+        (response, Histories::of(self.bridge, &self.load, &self.march(&self.load, speed), &motions))
     }
 
     /// Modal histories at `speed` m/s, in the steps of [`Passage::at`] for speeds of 5 m/s and more.
     #[must_use]
     pub fn histories(&self, speed: f64) -> Histories<'_> {
         let march = self.march(&self.load, speed);
-        let stride = march.stride();
-        Histories::of(self.bridge, &self.load, &march, stride)
+        Histories::of(self.bridge, &self.load, &march, &march.motions())
+    }
+
+    /// The grid of a slower train, on which a step of the shared one would be too long.
+    fn finer(&self, speed: f64) -> Option<f64> {
+        let finer = libm::log2(self.load.grid / (speed * self.bridge.longest_step())).ceil();
+        (finer > 0.0).then(|| self.load.grid * 0.5_f64.powi(finer as i32))
+    }
+
+    fn of(&self, load: &TrainLoad, speed: f64) -> (Response, Motions) {
+        let march = self.march(load, speed);
+        let motions = march.motions();
+        (Response { speed, step: march.h, steps: march.steps, extremes: march.extremes(&motions) }, motions)
     }
 
     fn march<'b>(&'b self, load: &'b TrainLoad, speed: f64) -> March<'b> {

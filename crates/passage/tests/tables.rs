@@ -150,14 +150,16 @@ fn histories_have_the_extremes_of_the_passage_and_take_filters() {
         close(found.max, response.extremes[i].max, 1e-6, "history");
         close(found.min, response.extremes[i].min, 1e-6, "history");
     }
-    let whole = histories.accelerations();
+    let accelerations = |factor: f64| {
+        let filter = |_: f64, all: &mut [Vec<f64>]| -> Result<(), ()> {
+            all.iter_mut().flatten().for_each(|a| *a *= factor);
+            Ok(())
+        };
+        histories.accelerations(filter).expect("nothing fails")
+    };
+    let (whole, half) = (accelerations(1.0), accelerations(0.5));
     assert_eq!(whole, response.extremes[bridge.positions()..]);
-    let half = histories.filtered(|_, all| {
-        all.iter_mut().flatten().for_each(|a| *a *= 0.5);
-        Ok::<(), ()>(())
-    });
-    let half = half.expect("nothing fails");
-    for (a, b) in whole.iter().zip(half.accelerations()) {
+    for (a, b) in whole.iter().zip(half) {
         assert!((0.5 * a.max - b.max).abs() < 1e-12 && (0.5 * a.min - b.min).abs() < 1e-12);
     }
 }

@@ -92,8 +92,8 @@ fn of_modes(opened: &Opened, verdict: &Verdict, before: f64, modal: Option<&Moda
     let value_from = |bridge: &ModalBridge, filter: &Filter, heading: Heading| -> Option<f64> {
         let passage = Passage::new(bridge, &train, heading, None);
         let histories = passage.histories(speed);
-        let filtered = histories.filtered(|h, signals| filter.apply_each(signals, 1.0 / h, speed * h)).ok()?;
-        filtered.accelerations().iter().map(|extreme| extreme.largest().0.abs()).reduce(f64::max)
+        let filtered = histories.accelerations(|h, signals| filter.apply_each(signals, 1.0 / h, speed * h)).ok()?;
+        filtered.iter().map(|extreme| extreme.largest().0.abs()).reduce(f64::max)
     };
     // The direction in which the train ran is that which gives the value once more.
     let is_same = |heading: &Heading| {
