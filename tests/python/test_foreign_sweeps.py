@@ -72,6 +72,29 @@ def test_one_speed_is_judged_as_a_run_and_the_report_names_what_was_given(ttb, e
     assert "deflection" in missing and "phi" in missing
 
 
+def test_trains_of_axle_loads_run_over_an_fmu_as_the_train_of_a_scenario(ttb, deck, tmp_path):
+    span = {"length": 32.5, "bending_stiffness": 4.39668e11, "mass": 29720}
+    scenario = {
+        "train": {"cars": ["ice3"], "speed": {"km_h": 250}},
+        "bridge": {"structure": {"type": "beams", "spans": [span]}, "damping": {"type": "rayleigh", "ratio": 0.05}},
+        "time": {"step": 2e-3},
+    }
+    (tmp_path / "cars.json").write_text(json.dumps(scenario))
+    (tmp_path / "forces.json").write_text(json.dumps({**scenario, "train": {"forces": "hslm-a1", "speed": {"km_h": 250}}}))
+    given = ["--bridge", deck, "--map", tmp_path / "map.json", "-q", "-o"]
+    ttb("run", tmp_path / "forces.json", *given, tmp_path / "run")
+    for name in ("cars", "forces"):
+        trains = ["--trains", "hslm-a1"] if name == "cars" else []
+        ttb("sweep", tmp_path / f"{name}.json", *trains, "--speeds", "250", *given, tmp_path / name)
+    of_run = verdicts(ttb, tmp_path / "run")
+    key = ("criterion", "status", "value", "raw", "filter", "basis", "in_basis")
+    for name in ("cars", "forces"):
+        assert [[one[of] for of in key] for one in verdicts(ttb, tmp_path / name)] == [[one[of] for of in key] for one in of_run]
+    [acceleration] = [one for one in of_run if one["criterion"] == "deck-acceleration"]
+    assert acceleration["in_basis"] and acceleration["value"] > 0.1
+    assert "Signatures" in (tmp_path / "cars" / "report.html").read_text()
+
+
 def test_stations_make_an_envelope_where_no_point_is_named(ttb, examples, tmp_path):
     scenario = changed(examples / "r1.json", tmp_path / "scenario.json", {"bridge.points": []})
     deck = beam(29720, points=[3.25 * k for k in range(1, 10)]).write(tmp_path)
@@ -104,9 +127,9 @@ def test_another_fmu_or_map_is_another_plan(ttb, examples, deck, tmp_path):
 
 def test_what_an_fmu_cannot_do_is_refused_all_at_once(ttb, examples, deck, tmp_path):
     given = ["--bridge", deck, "--map", tmp_path / "map.json", "--speeds", "250", "-o", tmp_path / "out"]
-    wrong = ["--way", "modal", "--trains", "hslm-a1", "--variants", "bounds", "--heading", "both", "--forces"]
+    wrong = ["--way", "modal", "--variants", "bounds", "--heading", "both", "--forces"]
     told = ttb("sweep", examples / "r1.json", *given, *wrong, expect=2).stderr
-    for key in ("way: ", "trains: ", "variants: ", "heading: ", "forces: "):
+    for key in ("way: ", "variants: ", "heading: ", "forces: "):
         assert key in told, told
     # What does not fit the FMU is told before the first run.
     (tmp_path / "map.json").write_text(json.dumps({**MAP, "force": {"name": "g[{i}]"}}))

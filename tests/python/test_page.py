@@ -171,11 +171,10 @@ def test_a_bridge_fmu_is_run_at_every_speed_or_refused_with_the_reason(clean, ad
     clean.click("#report")
     clean.wait("Number(document.documentElement.dataset.report) > 10000")
     assert f"--bridge {fmu} --map map.json" in clean.evaluate("document.querySelector('#command').textContent")
-    # What cannot be: trains of axle loads by their names.
-    clean.click("input[name=acts][value=loads]")
-    clean.type("#trains", "hslm-a1")
+    # What cannot be: an FMU cannot be turned round.
+    clean.choose("#heading", "both")
     clean.click("#compute")
-    clean.wait("document.querySelector('#trains-told').textContent.includes('over an FMU axle loads')")
+    clean.wait("document.querySelector('#problems').textContent.includes('the places of an FMU')")
 
 
 def test_a_browser_without_vectors_is_told_what_would_do(browser, address):

@@ -9,7 +9,6 @@ use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
-use ttb_scenario::bundled;
 
 use crate::expand::{joined, relative};
 use crate::request::{Choice, Headings, Request};
@@ -133,13 +132,6 @@ pub fn impossible(request: &Request) -> Vec<String> {
     // What is wrong with the list itself is told elsewhere.
     let variants = request.variants.list().unwrap_or_default();
     let mut problems = Vec::new();
-    let of_loads = request.trains.iter().find(|name| bundled::cars(name).is_none() && ttb_trains::find(name).is_ok());
-    problems.extend(of_loads.map(|name| {
-        format!(
-            "trains: {name}: over an FMU axle loads run as the scenario's own train alone: write \"train\": {{ \"forces\": \
-             \"{name}\", … }} into the scenario and name no trains, or name cars (ttb list cars)"
-        )
-    }));
     let mut add = |is: bool, text: &str| problems.extend(is.then(|| text.to_string()));
     add(
         matches!(request.way, Choice::Modal | Choice::OneAxle),

@@ -57,7 +57,7 @@ pub struct Sweep {
     /// Limits, names and files with commas between them: their filters decide which values are made; kept for `ttb report`
     #[arg(long, value_name = "LIST", value_delimiter = ',')]
     pub limits: Vec<String>,
-    /// Use this FMU as the bridge, isolated, with any train of vehicles; several times for several bridges in track order
+    /// Use this FMU as the bridge, isolated, with any train; several times for several bridges in track order
     #[arg(long, value_name = "FMU")]
     pub bridge: Vec<PathBuf>,
     /// How the given bridge's variables belong to ours; `ttb inspect FMU --map` proposes one. One for all, or one for each

@@ -37,15 +37,24 @@ impl Source {
         self.with(of_variant(variant))
     }
 
-    /// The scenario of a run. Loads take no vehicles: only their speed is set.
+    /// The scenario of a run. Over the scenario's own bridge axle loads take neither its vehicles nor its track: only their speed
+    /// is set. Over an FMU they run on the track, as the scenario's train.
     ///
     /// # Errors
     /// All its problems.
     pub fn of_run(&self, plan: &Plan, run: &Run) -> Result<Checked, Problems> {
         let mut settings = of_variant(&plan.variants[run.variant]);
         let mut set = |key: &str, value: Value| settings.push(Setting { key: key.into(), value });
-        if let Load::Cars(cars) = &plan.trains[run.train].load {
-            set("train.cars", json!(cars));
+        match &plan.trains[run.train].load {
+            Load::Cars(cars) => {
+                set("train.forces", Value::Null);
+                set("train.cars", json!(cars));
+            }
+            Load::Axles(axles) if !plan.bridges.is_empty() => {
+                set("train.cars", Value::Null);
+                set("train.forces", json!(axles));
+            }
+            Load::Axles(_) | Load::Scenario => {}
         }
         if let Some(speed) = run.speed() {
             set("train.speed", json!({ "m_s": speed }));

@@ -101,7 +101,6 @@ fn bytes_and_map_of_an_fmu_decide_the_ids_and_other_plans_keep_theirs() {
 #[test]
 fn what_cannot_be_varied_is_refused_at_once() {
     let wrong = Request {
-        trains: vec!["hslm-a1".into()],
         forces: true,
         variants: Variants::Word("bounds".into()),
         heading: Headings::Both,
@@ -110,18 +109,31 @@ fn what_cannot_be_varied_is_refused_at_once() {
         ..request("250")
     };
     let told = expanded(&wrong, vec![fmu("00", None)]).err().expect("refused");
-    for key in ["trains: ", "forces: ", "variants: ", "heading: ", "axes: bridge.damping.ratio", "way: "] {
+    for key in ["forces: ", "variants: ", "heading: ", "axes: bridge.damping.ratio", "way: "] {
         assert!(told.contains(key), "{key} is not in\n{told}");
     }
-    // A train of forces that is the scenario's own runs over it, as axle loads on a smooth rail.
+}
+
+#[test]
+fn axle_loads_run_as_the_train_of_the_scenario() {
     let mut scenario: serde_json::Value =
         serde_json::from_str(&std::fs::read_to_string(request("").scenario).expect("R1")).expect("JSON");
     scenario["train"] = serde_json::json!({ "forces": [[0.0, 1e5], [3.0, 1e5]], "speed": { "km_h": 250 } });
-    scenario["track"]["bays"] = 400.into();
+    scenario["track"] = serde_json::json!({ "type": "slab" });
     scenario["time"] = serde_json::json!({ "step": 1e-3 });
     let folder = tempfile::tempdir().expect("folder");
     let path = folder.path().join("forces.json");
     std::fs::write(&path, scenario.to_string()).expect("scenario");
-    let plan = expanded(&Request { scenario: path, ..request("250") }, vec![fmu("00", None)]).expect("a plan").plan;
-    assert_eq!(plan.trains[0].load, Load::Axles(vec![[0.0, 1e5], [3.0, 1e5]]));
+    let plan =
+        expanded(&Request { scenario: path.clone(), ..request("250") }, vec![fmu("00", None)]).expect("a plan").plan;
+    let own = Load::Axles(vec![[0.0, 1e5], [3.0, 1e5]]);
+    assert_eq!(plan.trains[0].load, own);
+    // Trains by name take its place, of loads as of cars; the scenario's speed is that of the run.
+    let request = Request { scenario: path, trains: vec!["hslm-a1".into(), "ice3-trailer".into()], ..request("200") };
+    let expand::Expanded { plan, source, .. } = expanded(&request, vec![fmu("00", None)]).expect("a plan");
+    let runs = plan.runs();
+    let of = |at: usize| source.of_run(&plan, &runs[at]).expect("a scenario");
+    assert_eq!((of(0).train_track.axle_count(), of(1).train_track.cars.len()), (50, 1));
+    assert!(of(0).scenario.train.cars.is_none() && of(1).scenario.train.forces.is_none());
+    assert!((of(0).train_track.speed[0][1] - 200.0 / 3.6).abs() < 1e-12);
 }
