@@ -105,6 +105,20 @@ def test_stations_make_an_envelope_where_no_point_is_named(ttb, examples, tmp_pa
     assert max(envelope, key=lambda row: float(row["max"]))["x_m"] in ("13", "16.25", "19.5")
 
 
+def test_a_bridge_without_roll_back_is_told_with_its_error(ttb, examples, tmp_path):
+    (tmp_path / "map.json").write_text(json.dumps(MAP))
+    deck = beam(29720, roll_back=False).write(tmp_path)
+    given = ["--bridge", deck, "--map", tmp_path / "map.json", "-o"]
+    told = ttb("sweep", examples / "r1.json", "--speeds", "240,250", *given, tmp_path / "out").stderr
+    ttb("run", examples / "r1.json", *given, tmp_path / "run", "-q")
+    estimate = json.loads((tmp_path / "run" / "summary.json").read_text())["coupling"]["error_estimate"]
+    assert "cannot save and restore its state" in told and "displacements are off by about" in told
+    report = ttb("report", tmp_path / "out") and (tmp_path / "out" / "report.html").read_text()
+    assert "cannot save and restore its state" in report
+    # The run at 250 km/h says what ttb run says of it.
+    assert f"off by about {estimate:.0e}".replace("e-0", "e-") in report
+
+
 def test_another_fmu_or_map_is_another_plan(ttb, examples, deck, tmp_path):
     scenario, out = examples / "r1.json", tmp_path / "out"
     command = ["sweep", scenario, "--bridge", deck, "--map", tmp_path / "map.json", "--speeds", "240,250", "-o", out]

@@ -197,9 +197,7 @@ pub fn couple(
         if settings.max_iterations > 1 && !(trusted && instance.can_restore()) {
             let cannot =
                 if trusted { "cannot save and restore its state (canGetAndSetFMUstate)" } else { "is not rolled back" };
-            warnings.push(format!(
-                "{name} {cannot}: steps are taken once, without iteration; the summary estimates the error"
-            ));
+            warnings.push(format!("{name} {cannot}: steps are taken once, without iteration; the error is estimated"));
         }
         if !rolls_back && !several {
             warnings.push(format!(

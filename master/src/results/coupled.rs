@@ -90,6 +90,17 @@ pub fn returned(report: &Report) -> Option<String> {
     ))
 }
 
+/// How far a run without iteration may be off, in words. One digit is what an estimate has; runs that are alike say the same.
+pub fn not_iterated(report: &Report) -> Option<String> {
+    let displacements = report.explicit?;
+    let accelerations = report.explicit_acceleration;
+    let accelerations = accelerations.map_or_else(
+        || "of accelerations of the deck nothing is known".to_string(),
+        |error| format!("accelerations of the deck by about {error:.0e} m/s²"),
+    );
+    Some(format!("without iteration displacements are off by about {displacements:.0e}, {accelerations}"))
+}
+
 impl CouplingReport {
     /// What the coupling knows at the end of a run.
     pub fn new(coupling: &Coupling, probe: &Probe) -> Self {

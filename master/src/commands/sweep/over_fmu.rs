@@ -26,7 +26,7 @@ use crate::connect::trusting::trusting;
 use crate::error::Error;
 use crate::prepare::{auto, fmus};
 use crate::results::belief::unbelievable;
-use crate::results::coupled::returned;
+use crate::results::coupled::{not_iterated, returned};
 use crate::results::credible::Doubts;
 use crate::results::job::Job;
 use crate::results::peaks::not_finite;
@@ -138,7 +138,7 @@ fn coupled(
     let report = connected.coupling.report();
     let doubts = Doubts::of(job, &peaks, report);
     doubts.verdict()?;
-    remarks.extend(not_finite(&peaks).into_iter().chain(returned(report)));
+    remarks.extend(not_finite(&peaks).into_iter().chain(returned(report)).chain(not_iterated(report)));
     remarks.extend(doubts.warnings.into_iter().chain(unbelievable(&peaks, &job.scale)));
     let mut histories = watch.histories(Some(checked), &job.scene);
     connected.place(&mut histories);
