@@ -86,7 +86,9 @@ pub fn look(text: &str, asked: &Asked, folder: &Path, room: &Room) -> Result<Loo
     if small && let Err(error) = ttb_bridge::inspect::remarks(&checked.bridge) {
         return Err(Fault::new(error.to_string()));
     }
-    let modes = drawing.as_ref().ok().filter(|_| small).map(modes).unwrap_or_default();
+    // Of an FMU in its place neither modes nor frequencies are known.
+    let own = small && asked.bridge.is_none();
+    let modes = drawing.as_ref().ok().filter(|_| own).map(modes).unwrap_or_default();
     let warnings = checked.findings.iter().map(|found| Told {
         path: found.path.clone(),
         text: found.text.strip_prefix(&format!("{}: ", found.path)).unwrap_or(&found.text).into(),
@@ -97,7 +99,7 @@ pub fn look(text: &str, asked: &Asked, folder: &Path, room: &Room) -> Result<Loo
         warnings: warnings.collect(),
         chosen: chosen.collect(),
         resolved: serde_json::to_value(&checked.scenario).unwrap_or_default(),
-        facts: if small { facts::of(&checked) } else { facts::of_track(&checked) },
+        facts: if own { facts::of(&checked) } else { facts::of_track(&checked) },
         sketch: with_train(sketch(&checked, drawing.ok().as_ref()), asked.trains.first()),
         modes,
     })

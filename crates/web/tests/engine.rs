@@ -101,4 +101,10 @@ fn a_page_without_the_program_says_where_fmus_can_be_had() {
     let asked = json!({ "scenario": scenario, "speeds": "250", "way": "coupled", "bridge": { "fmu": "Deck.fmu" } });
     let told = call(&engine(), "plan", &json!({ "asked": asked }))["error"].as_str().unwrap().to_string();
     assert!(told.contains("ttb ui"), "{told}");
+    // What is known of the scenario's bridge is not told of the FMU.
+    let look = |asked: &Value| call(&engine(), "look", &json!({ "text": scenario, "asked": asked }));
+    let (own, over) = (look(&json!({ "way": "coupled" })), look(&asked));
+    assert!(!own["modes"].as_array().unwrap().is_empty() && own["facts"]["n0_hz"].is_number());
+    assert!(over["modes"].as_array().unwrap().is_empty() && over["facts"]["n0_hz"].is_null());
+    assert!(over["facts"]["track"].is_string() && over["sketch"].is_object());
 }
