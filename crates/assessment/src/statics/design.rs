@@ -63,12 +63,18 @@ const SMALL: f64 = 0.02;
 /// What would have to be known.
 pub fn design_effects(facts: &Facts, results: &Results) -> Result<Vec<DesignEffect>, String> {
     let n0 = facts.n0_hz.ok_or("the first frequency is not known: give `n0_hz` among the facts")?;
+    let kinds = [DECK_DISPLACEMENT, DECK_MOMENT, DECK_SHEAR];
+    let mut lines = Vec::new();
+    for case in &results.statics.cases {
+        for quantity in kinds {
+            lines.extend([Statistic::Max, Statistic::Min].map(|sense| Line::new(case, quantity, sense)));
+        }
+    }
     let mut effects = Vec::new();
     for (at, row) in &results.rows {
-        let kinds = [DECK_DISPLACEMENT, DECK_MOMENT, DECK_SHEAR];
         let judged =
             kinds.contains(&row.quantity.as_ref()) && row.filter == RAW && row.place_kind != PlaceKind::Bearing;
-        if judged && let Some(effect) = effect(facts, results, n0, *at, row) {
+        if judged && let Some(effect) = effect(facts, results, &lines, n0, *at, row) {
             effects.push(effect);
         }
     }
@@ -78,14 +84,14 @@ pub fn design_effects(facts: &Facts, results: &Results) -> Result<Vec<DesignEffe
     Ok(effects)
 }
 
-fn effect(facts: &Facts, results: &Results, n0: f64, at: usize, row: &Peak) -> Option<DesignEffect> {
+fn effect(facts: &Facts, results: &Results, lines: &[Line], n0: f64, at: usize, row: &Peak) -> Option<DesignEffect> {
     let run: &Run = &results.runs[at];
     let (v, factor) = (run.speed_km_h? / 3.6, facts.factor(row.x)?);
     let alpha = facts.alpha.unwrap_or(1.0);
     let sense = if row.statistic == Statistic::Min { Statistic::Min } else { Statistic::Max };
-    let cases =
-        results.statics.cases.iter().filter_map(|case| Some((case, amount(case, &row.quantity, sense, row.x?)?)));
-    let (case, most) = cases.reduce(|most, one| if one.1 > most.1 { one } else { most })?;
+    let here = lines.iter().filter(|line| line.sense == sense && line.quantity == row.quantity);
+    let amounts = here.filter_map(|line| Some((line.case, line.amount(row.x?)?)));
+    let (case, most) = amounts.reduce(|most, one| if one.1 > most.1 { one } else { most })?;
     let maintenance = if facts.is_careful() { 0.5 } else { 1.0 };
     Some(DesignEffect {
         run: at,
@@ -97,24 +103,41 @@ fn effect(facts: &Facts, results: &Results, n0: f64, at: usize, row: &Peak) -> O
         dynamic: row.value.abs(),
         statically: row.static_value.filter(|value| *value != 0.0)?.abs(),
         irregular: maintenance * phi_double_prime(v, factor.length, n0),
-        load: case.name.clone(),
+        load: case.into(),
         allowed: factor.phi * alpha * most,
         factor,
     })
 }
 
-/// |y| of a load model at an abscissa, between its places a straight line; `None` where it does next to nothing.
-fn amount(case: &LoadCase, quantity: &str, statistic: Statistic, x: f64) -> Option<f64> {
-    let mut line: Vec<[f64; 2]> =
-        along(&case.rows, quantity, statistic).filter_map(|row| Some([row.x?, row.value.abs()])).collect();
-    line.sort_by(|a, b| a[0].total_cmp(&b[0]).then(b[1].total_cmp(&a[1])));
-    line.dedup_by(|next, kept| next[0] == kept[0]);
-    // In both senses: the least displacement of a simple span is rounding.
-    let both = [Statistic::Max, Statistic::Min].into_iter().flat_map(|sense| along(&case.rows, quantity, sense));
-    let most = both.map(|row| row.value.abs()).fold(0.0, f64::max);
-    let after = line.partition_point(|point| point[0] < x);
-    let (a, b) = (line.get(after.saturating_sub(1))?, line.get(after.min(line.len() - 1))?);
-    let share = if b[0] > a[0] { ((x - a[0]) / (b[0] - a[0])).clamp(0.0, 1.0) } else { 0.0 };
-    let value = a[1] + share * (b[1] - a[1]);
-    (value > SMALL * most).then_some(value)
+/// |y| of a load model along the deck.
+struct Line<'a> {
+    case: &'a str,
+    quantity: &'a str,
+    sense: Statistic,
+    /// Places, m, and amounts, rising.
+    points: Vec<[f64; 2]>,
+    /// The largest in both senses: the least displacement of a simple span is rounding.
+    most: f64,
+}
+
+impl<'a> Line<'a> {
+    fn new(case: &'a LoadCase, quantity: &'a str, sense: Statistic) -> Self {
+        let rows = along(&case.rows, quantity, sense);
+        let mut points: Vec<[f64; 2]> = rows.filter_map(|row| Some([row.x?, row.value.abs()])).collect();
+        points.sort_by(|a, b| a[0].total_cmp(&b[0]).then(b[1].total_cmp(&a[1])));
+        points.dedup_by(|next, kept| next[0] == kept[0]);
+        let both = [Statistic::Max, Statistic::Min].into_iter().flat_map(|sense| along(&case.rows, quantity, sense));
+        let most = both.map(|row| row.value.abs()).fold(0.0, f64::max);
+        Self { case: &case.name, quantity, sense, points, most }
+    }
+
+    /// At an abscissa, between its places a straight line; `None` where the model does next to nothing.
+    fn amount(&self, x: f64) -> Option<f64> {
+        let after = self.points.partition_point(|point| point[0] < x);
+        let last = self.points.len().checked_sub(1)?;
+        let (a, b) = (self.points.get(after.saturating_sub(1))?, self.points.get(after.min(last))?);
+        let share = if b[0] > a[0] { ((x - a[0]) / (b[0] - a[0])).clamp(0.0, 1.0) } else { 0.0 };
+        let value = a[1] + share * (b[1] - a[1]);
+        (value > SMALL * self.most).then_some(value)
+    }
 }
