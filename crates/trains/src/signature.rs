@@ -50,10 +50,10 @@ impl<'a> Signature<'a> {
             let decay = libm::exp(-TAU * self.damping * (axle.x - before) / length);
             let (sin, cos) = libm::sincos(TAU * axle.x / length);
             (re, im) = (re * decay + axle.load * cos, im * decay + axle.load * sin);
-            largest = largest.max(libm::hypot(re, im));
+            largest = largest.max(re * re + im * im);
             before = axle.x;
         }
-        largest
+        largest.sqrt()
     }
 
     /// Wavelengths between `range[0]` and `range[1]`, m, at which G has a maximum of at least half the largest, that of
