@@ -133,6 +133,11 @@ class Workers {
     return this.callAt(0, verb, request, signal);
   }
 
+  // As `call`, in a worker that has computed, so that it has what it prepared.
+  async aside(verb, request) {
+    return read(await this.pool.at(-1).text(verb, JSON.stringify(request)));
+  }
+
   places() {
     return this.workers;
   }
@@ -180,6 +185,10 @@ class Program {
 
   long(verb, request, signal) {
     return this.call(verb, request, signal);
+  }
+
+  aside(verb, request) {
+    return this.call(verb, request);
   }
 
   // The program shares the runs of a call out to its processors itself.

@@ -16,6 +16,9 @@ function save(name, content, type) {
   setTimeout(() => URL.revokeObjectURL(address), 60000);
 }
 
+// Of more runs the report is made when somebody asks for it.
+const AHEAD = 2000;
+
 // Records without extremes along the deck, which are most of them, but for the runs that are named.
 export const lean = (records, named = new Set()) => records.map((record) => (named.has(record.run_id) ? record : { ...record, envelopes: [] }));
 
@@ -74,7 +77,7 @@ function actions(of) {
   const told = element("span", { role: "status" });
   let compared = [];
   // The report names the folder in which the files are meant to lie.
-  const made = (records) => of.engine.call("dossier", { asked: of.asked, records, limits: of.limits, compared, name: "ttb-page", date: new Date().toISOString().slice(0, 10) });
+  const made = (records) => of.engine.aside("dossier", { asked: of.asked, records, limits: of.limits, compared, name: "ttb-page", date: new Date().toISOString().slice(0, 10) });
   // A report shows the extremes along the deck of judged runs alone.
   const judged = lean(of.records, new Set(of.outcome.verdicts.verdicts.map((verdict) => verdict.run_id)));
   const button = (text, id, act) => {
@@ -91,16 +94,21 @@ function actions(of) {
     });
     return one;
   };
+  // Most people open it: unless it is large it is made while they read the verdict.
+  let ahead = of.records.length > AHEAD ? undefined : made(judged);
+  ahead?.catch(() => { ahead = undefined; });
+  const page = async () => (await (ahead ??= made(judged)))["report.html"];
   const report = button("Open the report", "report", async () => {
-    const page = (await made(judged))["report.html"];
-    document.documentElement.dataset.report = String(page.length);
-    window.open(URL.createObjectURL(new Blob([page], { type: "text/html" })), "_blank", "noopener");
+    const text = await page();
+    document.documentElement.dataset.report = String(text.length);
+    window.open(URL.createObjectURL(new Blob([text], { type: "text/html" })), "_blank", "noopener");
   });
-  const keep = button("Save the report", "save-report", async () => save("report.html", (await made(judged))["report.html"], "text/html"));
+  const keep = button("Save the report", "save-report", async () => save("report.html", await page(), "text/html"));
   const all = button("Save all (.zip)", "save-all", async () => save("ttb-page.zip", zip("ttb-page", await made(of.records))));
   const again = of.plan.way === "coupled" ? undefined : button("Repeat the governing runs step by step", "again", async () => {
     told.textContent = "computing …";
     compared = await of.engine.long("again", { asked: of.asked, records: of.records }, new AbortController().signal);
+    ahead = undefined;
     told.textContent = compared.map((one) => `${one.quantity}: ${100 * Math.abs(one.difference) < 0.001 ? "no difference" : `${(100 * one.difference).toFixed(3)} %`} (allowed ${100 * one.allowed} %)`).join("; ");
   });
   return element("div", { class: "row", role: "group", "aria-label": "Report and files" }, report, keep, all, again, told);
