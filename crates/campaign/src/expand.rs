@@ -273,6 +273,17 @@ fn step(
     })
 }
 
+/// A plan of one folder as another one names its files, which need not be there yet.
+#[must_use]
+pub fn moved(plan: Plan, from: &Path, to: &Path) -> Plan {
+    if real(from) == real(to) {
+        return plan;
+    }
+    let file = |name: &str| relative(&joined(from, name), to);
+    let bridges = plan.bridges.iter().map(|bridge| Foreign { fmu: file(&bridge.fmu), ..bridge.clone() }).collect();
+    Plan { scenario: file(&plan.scenario), bridges, ..plan }
+}
+
 /// A path from a folder that need not be there yet.
 pub(crate) fn relative(path: &Path, from: &Path) -> String {
     let (Some(path_), Some(from)) = (real(path), real(from)) else { return path.display().to_string() };

@@ -20,7 +20,9 @@ pub fn campaign(arguments: &Campaign, stop: &Stop) -> Result<(), Error> {
         (Some(CampaignVerb::Plan { plan, output, tasks, minutes }), _, _) => {
             script(plan, output.as_deref(), *tasks, *minutes)
         }
-        (None, Some(file), Some(common)) if is_stored(file) => compute::compute(compute::stored(file)?, common, stop),
+        (None, Some(file), Some(common)) if is_stored(file) => {
+            compute::compute(compute::stored(file, &common.output)?, common, stop)
+        }
         (None, Some(file), Some(common)) => compute::request(&Request::read(file)?, common, stop),
         _ => Err(Error::Input("give the file that says what is varied, and -o; `ttb campaign --help` tells".into())),
     }

@@ -39,11 +39,12 @@ pub fn expand(request: &Request, beside: &Path) -> Result<Expanded, Error> {
     Ok(expand::expand(request, VERSION, beside, limits)?)
 }
 
-/// A stored plan with its scenario, which must mean what it meant.
-pub fn stored(file: &Path) -> Result<Expanded, Error> {
+/// A stored plan with its scenario, which must mean what it meant; its files are named from the folder `beside`.
+pub fn stored(file: &Path, beside: &Path) -> Result<Expanded, Error> {
     let text = ttb_scenario::read_text(file).map_err(Error::io(file))?;
     let plan = Plan::parse(&text, &file.display().to_string())?;
-    let scenario = file.parent().unwrap_or(Path::new("")).join(&plan.scenario);
+    let folder = file.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let scenario = folder.join(&plan.scenario);
     let source = expand::source(&scenario, plan.set.iter().cloned())?;
     let checked = source.checked().map_err(Error::Scenario)?;
     if checked.hash != plan.scenario_sha256 {
@@ -55,6 +56,7 @@ pub fn stored(file: &Path) -> Result<Expanded, Error> {
         )));
     }
     let facts = facts::of_plan(&checked, !plan.bridges.is_empty());
+    let plan = expand::moved(plan, folder, beside);
     Ok(Expanded { plan, source, checked, facts, chosen: Vec::new() })
 }
 
@@ -145,7 +147,7 @@ fn retry(folder: &Folder, shard: Shard) -> Result<(), Error> {
 
 /// Makes the tables of a folder as it is.
 pub fn merge(path: &Path, stop: &Stop) -> Result<(), Error> {
-    let expanded = stored(&path.join(ttb_campaign::plan::FILE))?;
+    let expanded = stored(&path.join(ttb_campaign::plan::FILE), path)?;
     let _claimed = Claimed::claim(path, stop)?;
     stop.gently();
     let folder = Folder::read(path)?;
