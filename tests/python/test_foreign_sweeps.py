@@ -10,7 +10,8 @@ import time
 
 import pytest
 from scenario import changed
-from test_foreign import MAP, beam
+from test_foreign import MAP, PYTHON_MAP, beam, libpython, needs_libpython, python_bridge, python_path  # noqa: F401
+from test_several import viaduct  # noqa: F401
 
 # Rows of peaks.csv that are the same whoever looks at the deck: those of named points, of wheelsets and of cars.
 SAME = ("point", "axle", "car")
@@ -119,6 +120,27 @@ def test_a_bridge_without_roll_back_is_told_with_its_error(ttb, examples, tmp_pa
     assert f"off by about {estimate:.0e}".replace("e-0", "e-") in report
 
 
+def test_several_bridges_are_judged_as_a_run_over_them(ttb, viaduct, tmp_path):  # noqa: F811
+    scenario, girder, _ = viaduct
+    given = ["--bridge", girder, "--bridge", girder, "-q", "-o"]
+    ttb("run", scenario, *given, tmp_path / "run")
+    ttb("sweep", scenario, "--speeds", "250", *given, tmp_path / "sweep")
+    of_run, of_sweep = verdicts(ttb, tmp_path / "run"), verdicts(ttb, tmp_path / "sweep")
+    assert [[one["criterion"], one["value"]] for one in of_sweep] == [[one["criterion"], one["value"]] for one in of_run]
+    places = {row["place"] for row in rows(tmp_path / "sweep" / "peaks.csv") if row["place_kind"] == "point"}
+    assert {"Bridge1.mid", "Bridge2.mid"} <= places
+
+
+@needs_libpython
+def test_an_fmu_in_python_gets_its_library(ttb, examples, python_bridge, python_path, tmp_path):  # noqa: F811
+    (tmp_path / "map.json").write_text(json.dumps(PYTHON_MAP))
+    command = ["sweep", examples / "r1.json", "--bridge", python_bridge(True), "--map", tmp_path / "map.json", "--speeds", "240,250", "-q", "-o", tmp_path / "out"]
+    assert "--preload libpython" in ttb(*command, expect=4).stderr
+    assert not (tmp_path / "out").exists()
+    ttb(*command, "--preload", libpython())
+    assert [row["status"] for row in rows(tmp_path / "out" / "runs.csv")] == ["done", "done"]
+
+
 def test_another_fmu_or_map_is_another_plan(ttb, examples, deck, tmp_path):
     scenario, out = examples / "r1.json", tmp_path / "out"
     command = ["sweep", scenario, "--bridge", deck, "--map", tmp_path / "map.json", "--speeds", "240,250", "-o", out]
@@ -127,9 +149,13 @@ def test_another_fmu_or_map_is_another_plan(ttb, examples, deck, tmp_path):
     kept = {path.name: path.stat().st_mtime_ns for path in (out / "journal").iterdir()}
     ttb(*command)
     assert {path.name: path.stat().st_mtime_ns for path in (out / "journal").iterdir()} == kept
-    # The same from the plan that is stored, by one worker, elsewhere.
-    ttb("campaign", out / "plan.json", "-o", out, "-j", "1")
-    assert [(out / name).read_bytes() for name in ("runs.csv", "peaks.csv", "envelope.csv", "results.h5")] == tables
+    # The same from the plan that is stored, by one worker, in a folder elsewhere, whose files are found from there.
+    other = tmp_path / "deep" / "other"
+    ttb("campaign", out / "plan.json", "-o", other, "-j", "1")
+    assert [(other / name).read_bytes() for name in ("runs.csv", "peaks.csv", "envelope.csv", "results.h5")] == tables
+    ttb("campaign", other / "plan.json", "-o", other, "-q")
+    ttb("report", other, "-q")
+    assert "R1: one ICE 3" in (other / "report.html").read_text()
     (tmp_path / "map.json").write_text(json.dumps({**MAP, "parameters": {"Deck.mu": 20000.0}}))
     assert "another bridge or map" in ttb(*command, expect=2).stderr
     with open(deck, "ab") as file:

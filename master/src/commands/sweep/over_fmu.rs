@@ -39,7 +39,8 @@ pub struct Bridges {
 }
 
 impl Bridges {
-    /// Of a plan in a folder, with the longest time of a call, s, and libraries that are loaded first; `None`: the bridge is the scenario's own.
+    /// Of a plan in a folder, with the longest time of a call, s, and libraries that are loaded first; `None`: the bridge is the
+    /// scenario's own.
     ///
     /// # Errors
     /// FMUs that cannot be read or have changed, maps that cannot be read, a line each; FMUs cannot be isolated here.
