@@ -5,8 +5,10 @@ use std::path::Path;
 
 use ttb_passage::{Output, PlaceKind, Quantity};
 
+use crate::clock::Since;
 use crate::compute::Computed;
 use crate::history::History;
+use crate::plan::Run;
 use crate::record::Record;
 
 /// A quantity and a place of the deck or of a name.
@@ -43,4 +45,18 @@ pub fn done(record: Record, folder: Option<&Path>, history: impl FnOnce() -> His
         Ok(()) => record,
         Err(error) => Record::failed(&record.run_id, error.to_string(), record.seconds),
     })
+}
+
+/// A run that leaves a record and a history, or nothing because it was asked to stop, or why it failed.
+pub fn ended(
+    run: &Run,
+    folder: Option<&Path>,
+    work: impl FnOnce() -> Result<Option<(Record, History)>, String>,
+) -> Computed {
+    let begin = Since::now();
+    match work() {
+        Ok(Some((record, history))) => done(record, folder, || history),
+        Ok(None) => Computed::Stopped,
+        Err(error) => Computed::Done(Record::failed(&run.id, error, begin.seconds())),
+    }
 }

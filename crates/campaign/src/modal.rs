@@ -17,7 +17,7 @@ use crate::compute::{Compute, Computed, small};
 use crate::coupled::Source;
 use crate::kept;
 use crate::plan::{Load, Plan, Run, Train};
-use crate::record::{Envelope, FORMAT, Record};
+use crate::record::{Envelope, Record};
 
 /// Runs of a batch: so many that a train's load on the modes is made seldom.
 const BATCH: usize = 64;
@@ -136,16 +136,11 @@ impl<'a> Modal<'a> {
             }
         }
         Record {
-            format: FORMAT,
-            run_id: run.id.clone(),
-            error: None,
             step: Some(response.step),
             modes: Some(bridge.modes().len()),
-            seconds: 0.0,
             peaks: rows.peaks(),
             envelopes: rows.envelopes,
-            missing: Vec::new(),
-            remarks: Vec::new(),
+            ..Record::of(&run.id)
         }
     }
 }

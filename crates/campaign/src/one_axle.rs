@@ -23,7 +23,7 @@ use crate::coupled::{Source, vehicles};
 use crate::kept;
 use crate::modal::{Rows, force_train};
 use crate::plan::{Plan, Run, Train};
-use crate::record::{FORMAT, Record};
+use crate::record::Record;
 
 /// Samples of the shortest period that counts, and its margin, as in the modal way.
 const SAMPLES: f64 = 20.0;
@@ -154,18 +154,7 @@ impl<'a> OneAxle<'a> {
         }
         let mut peaks = rows.peaks();
         peaks.push(Peak::raw("superposition.error", PlaceKind::Whole, Statistic::Value, greatest_error(unit)));
-        Record {
-            format: FORMAT,
-            run_id: run.id.clone(),
-            error: None,
-            step: Some(unit.h),
-            modes: None,
-            seconds: 0.0,
-            peaks,
-            envelopes: rows.envelopes,
-            missing: Vec::new(),
-            remarks: Vec::new(),
-        }
+        Record { step: Some(unit.h), peaks, envelopes: rows.envelopes, ..Record::of(&run.id) }
     }
 }
 

@@ -77,21 +77,25 @@ pub struct Envelope {
 }
 
 impl Record {
-    /// Of a run that failed.
-    pub fn failed(run_id: &str, error: impl Into<String>, seconds: f64) -> Self {
-        let (run_id, error) = (run_id.into(), Some(error.into()));
+    /// Of a run of which nothing is known yet.
+    pub fn of(run_id: &str) -> Self {
         Self {
             format: FORMAT,
-            run_id,
-            error,
+            run_id: run_id.into(),
+            error: None,
             step: None,
             modes: None,
-            seconds,
+            seconds: 0.0,
             peaks: Vec::new(),
             envelopes: Vec::new(),
             missing: Vec::new(),
             remarks: Vec::new(),
         }
+    }
+
+    /// Of a run that failed.
+    pub fn failed(run_id: &str, error: impl Into<String>, seconds: f64) -> Self {
+        Self { error: Some(error.into()), seconds, ..Self::of(run_id) }
     }
 
     /// Itself, or a failed run if a value is not finite: such a value would pass through no comparison.

@@ -19,7 +19,7 @@ use crate::compute::{Compute, Computed};
 use crate::history::History;
 use crate::kept;
 use crate::plan::{Load, Plan, Run};
-use crate::record::{FORMAT, Record};
+use crate::record::Record;
 
 /// Periods of the first mode for which the bridge is watched after the passage, least and most, and the most time, s.
 const PERIODS: [f64; 2] = [2.0, 20.0];
@@ -54,7 +54,7 @@ const KEPT: usize = 4;
 
 impl Compute for Loads<'_> {
     fn compute(&self, runs: &[Run], stop: &AtomicBool) -> Vec<Computed> {
-        runs.iter().map(|run| self.one(run, stop)).collect()
+        runs.iter().map(|run| kept::ended(run, self.keep, || self.run(run, stop))).collect()
     }
 }
 
@@ -68,27 +68,14 @@ impl Loads<'_> {
         let Some((checked, table)) = self.table(run, stop)? else { return Ok(None) };
         let histories: Histories = rows::histories(&table, &checked, [0.0, checked.bridge.end]);
         let record = Record {
-            format: FORMAT,
-            run_id: run.id.clone(),
-            error: None,
             step: Some(checked.bridge.step),
             modes: checked.bridge.modes,
             peaks: rows::peaks(&histories, self.criteria, self.facts),
             envelopes: rows::envelopes(&histories, &self.judged),
-            missing: Vec::new(),
-            remarks: Vec::new(),
             seconds: begin.seconds(),
+            ..Record::of(&run.id)
         };
         Ok(Some((record, rows::kept(table, &checked))))
-    }
-
-    fn one(&self, run: &Run, stop: &AtomicBool) -> Computed {
-        let begin = Since::now();
-        match self.run(run, stop) {
-            Ok(Some((record, history))) => kept::done(record, self.keep, || history),
-            Ok(None) => Computed::Stopped,
-            Err(error) => Computed::Done(Record::failed(&run.id, error, begin.seconds())),
-        }
     }
 
     /// The scenario of a run, with points along the deck, and its histories; `None` if it was asked to stop.

@@ -15,7 +15,7 @@ use crate::compute::{Compute, Computed};
 use crate::history::History;
 use crate::kept;
 use crate::plan::{Plan, Run};
-use crate::record::{FORMAT, Record};
+use crate::record::Record;
 
 /// Takes the steps of runs over FMUs.
 pub trait Master: Sync {
@@ -58,7 +58,7 @@ pub struct OverFmu<'a> {
 
 impl Compute for OverFmu<'_> {
     fn compute(&self, runs: &[Run], stop: &AtomicBool) -> Vec<Computed> {
-        runs.iter().map(|run| self.one(run, stop)).collect()
+        runs.iter().map(|run| kept::ended(run, self.keep, || self.run(run, stop))).collect()
     }
 }
 
@@ -74,26 +74,14 @@ impl OverFmu<'_> {
         let Some(stepped) = master.run(checked, stop)? else { return Ok(None) };
         let reduced = reduce(&stepped.histories, self.criteria, self.facts);
         let record = Record {
-            format: FORMAT,
-            run_id: run.id.clone(),
-            error: None,
             step: Some(stepped.step),
-            modes: None,
             peaks: rows::worst(reduced.peaks),
             envelopes: rows::envelopes(&stepped.histories, &self.judged),
             missing: reduced.missing,
             remarks: stepped.remarks,
             seconds: begin.seconds(),
+            ..Record::of(&run.id)
         };
         Ok(Some((record, stepped.history)))
-    }
-
-    fn one(&self, run: &Run, stop: &AtomicBool) -> Computed {
-        let begin = Since::now();
-        match self.run(run, stop) {
-            Ok(Some((record, history))) => kept::done(record, self.keep, || history),
-            Ok(None) => Computed::Stopped,
-            Err(error) => Computed::Done(Record::failed(&run.id, error, begin.seconds())),
-        }
     }
 }

@@ -24,7 +24,7 @@ use crate::history::History;
 use crate::kept;
 use crate::plan::{Plan, Run, Variant};
 use crate::points::deck_points;
-use crate::record::{FORMAT, Record};
+use crate::record::Record;
 
 /// Both sides in this process.
 type Both = Sides<ttb_train_track::TrainTrack, ttb_bridge::Bridge>;
@@ -76,16 +76,11 @@ impl Vehicles<'_> {
             Ok(Some((checked, table))) => {
                 let histories = rows::histories(&table, &checked, checked.peaks);
                 let record = Record {
-                    format: FORMAT,
-                    run_id: run.id.clone(),
-                    error: None,
                     step: Some(checked.steps().step),
                     modes: checked.bridge.modes,
                     peaks: rows::peaks(&histories, self.criteria, self.facts),
                     envelopes: rows::envelopes(&histories, &self.judged),
-                    missing: Vec::new(),
-                    remarks: Vec::new(),
-                    seconds: 0.0,
+                    ..Record::of(&run.id)
                 };
                 kept::done(record, self.keep, || rows::kept(table, &checked))
             }
