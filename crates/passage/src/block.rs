@@ -13,16 +13,13 @@
 use pulp::Simd;
 
 use crate::extreme::{Extreme, WIDE, Watch};
+use crate::lanes::{QUAD, ROUNDING, larger, smaller};
 use crate::load::Rest;
 
-/// Modes that are taken together.
-pub const QUAD: usize = 4;
 /// Steps of a block.
 pub const STEPS: usize = 32;
 /// Steps before it that a parabola through three samples needs.
 const BEFORE: usize = 2;
-/// What rounding may add to a bound, of the sum of magnitudes.
-pub const ROUNDING: f64 = 1e-12;
 
 /// Modal motion of a passage at steps 0, 1, …; before step 0 there is rest.
 #[derive(Clone, Debug)]
@@ -204,18 +201,6 @@ fn promising(reaches: &[[[f64; WIDE]; 2]]) -> [Option<usize>; 2] {
     let lowest = blocks.clone().min_by(|a, b| sum(*a, 0).total_cmp(&sum(*b, 0)));
     let highest = blocks.max_by(|a, b| sum(*a, 1).total_cmp(&sum(*b, 1)));
     [highest, lowest.filter(|_| lowest != highest)]
-}
-
-/// The larger number: one instruction, where `f64::max` takes several for the sake of NaN.
-#[inline(always)]
-pub fn larger(a: f64, b: f64) -> f64 {
-    if a < b { b } else { a }
-}
-
-/// The smaller number, likewise.
-#[inline(always)]
-pub fn smaller(a: f64, b: f64) -> f64 {
-    if b < a { b } else { a }
 }
 
 /// y ← y + Σ_j row_j x_j, added in the order of j.

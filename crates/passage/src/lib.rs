@@ -28,6 +28,7 @@
 mod block;
 pub mod extreme;
 pub mod history;
+mod lanes;
 pub mod lines;
 pub mod load;
 pub mod march;

@@ -7,7 +7,7 @@
 //! Shapes of modes and influence lines of a beam without distributed load are cubic between nodes and loaded places, so
 //! that four values a piece give them exactly.
 
-use crate::block::QUAD;
+use crate::lanes::QUAD;
 
 /// c of four functions on a piece, by power.
 pub type Cubics = [[f64; QUAD]; 4];

@@ -11,8 +11,8 @@
 use pulp::NullaryFnOnce;
 use ttb_trains::ForceTrain;
 
-use crate::block::{QUAD, ROUNDING, larger, smaller};
 use crate::extreme::{Extreme, WIDE};
+use crate::lanes::{QUAD, ROUNDING, larger, smaller};
 use crate::lines::{Cubics, value};
 use crate::modal::ModalBridge;
 use crate::sum::{Stretch, Sums};

@@ -4,8 +4,9 @@
 
 use pulp::{NullaryFnOnce, Simd, WithSimd};
 
-use crate::block::{Group, Motion, QUAD};
+use crate::block::{Group, Motion};
 use crate::extreme::{Extreme, WIDE};
+use crate::lanes::QUAD;
 use crate::load::{Rest, TrainLoad};
 use crate::modal::ModalBridge;
 use crate::recursion::Coefficients;

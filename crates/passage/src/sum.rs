@@ -12,7 +12,7 @@
 
 use ttb_trains::Axle;
 
-use crate::block::QUAD;
+use crate::lanes::QUAD;
 use crate::lines::{Cubics, Lines};
 
 /// After so many stretches the sum is made anew.
