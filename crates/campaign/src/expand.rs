@@ -1,6 +1,6 @@
 //! From a request to a plan: names become trains, ranges become speeds, `auto` becomes a way.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use serde_json::Value;
 use ttb_assessment::Facts;
@@ -16,7 +16,9 @@ use crate::facts;
 use crate::foreign::{self, Foreign};
 use crate::limits::Limits;
 use crate::list::{self, Numbers, Written};
+use crate::paths::{joined, real, relative};
 use crate::plan::{FORMAT, Load, Plan, Rail, Train, Variant, Way};
+use crate::refused;
 use crate::request::{Headings, Request};
 use crate::speeds::{self, Step};
 
@@ -94,7 +96,7 @@ pub fn of_source(
     let trains = noted(trains(request, way, &checked, over_fmu), &mut problems);
     let variants = noted(variants(request, &source), &mut problems);
     if over_fmu {
-        problems.extend(foreign::impossible(request));
+        problems.extend(refused::over_fmu(request));
     }
     let rails = noted(rails(request, way, &checked, &trains), &mut problems);
     let vehicles = trains.iter().any(|train| !matches!(train.load, Load::Axles(_)));
@@ -282,32 +284,4 @@ pub fn moved(plan: Plan, from: &Path, to: &Path) -> Plan {
     let file = |name: &str| relative(&joined(from, name), to);
     let bridges = plan.bridges.iter().map(|bridge| Foreign { fmu: file(&bridge.fmu), ..bridge.clone() }).collect();
     Plan { scenario: file(&plan.scenario), bridges, ..plan }
-}
-
-/// A path from a folder that need not be there yet.
-pub(crate) fn relative(path: &Path, from: &Path) -> String {
-    let (Some(path_), Some(from)) = (real(path), real(from)) else { return path.display().to_string() };
-    let shared = path_.components().zip(from.components()).take_while(|(a, b)| a == b).count();
-    let up = from.components().skip(shared).map(|_| std::path::Component::ParentDir);
-    let relative: PathBuf = up.chain(path_.components().skip(shared)).collect();
-    relative.display().to_string()
-}
-
-/// What [`relative`] was made of.
-pub(crate) fn joined(folder: &Path, relative: &str) -> PathBuf {
-    let mut path = real(folder).unwrap_or_else(|| folder.into());
-    for part in Path::new(relative).components() {
-        match part {
-            // Without links the folder above is the one before, whether the folder is there yet or not.
-            std::path::Component::ParentDir => drop(path.pop()),
-            part => path.push(part),
-        }
-    }
-    path
-}
-
-/// The path without links, as far as it is there.
-fn real(path: &Path) -> Option<PathBuf> {
-    let path = std::path::absolute(path).ok()?;
-    path.canonicalize().ok().or_else(|| Some(real(path.parent()?)?.join(path.file_name()?)))
 }

@@ -6,10 +6,11 @@ use serde::{Deserialize, Serialize};
 use ttb_assessment::Criteria;
 use ttb_assessment::criterion::{self, DEFAULT};
 use ttb_campaign::expand::LARGEST_SEED;
-use ttb_campaign::foreign::{self, Foreign};
+use ttb_campaign::foreign::Foreign;
 use ttb_campaign::limits;
 use ttb_campaign::list::{self, Written};
 use ttb_campaign::plan::{Plan, Rail, Run};
+use ttb_campaign::refused;
 use ttb_campaign::request::{Choice, Headings, Request, Variants};
 use ttb_scenario::bundled;
 
@@ -86,7 +87,7 @@ impl Asked {
         let seeds = self.seeds.as_ref().and_then(|seeds| list::whole(seeds, LARGEST_SEED).err());
         problems.extend(seeds.map(|error| format!("seeds: {error}")));
         if self.bridge.is_some() {
-            problems.extend(foreign::impossible(&self.request()));
+            problems.extend(refused::over_fmu(&self.request()));
         }
         problems
     }
