@@ -153,15 +153,16 @@ impl WithSimd for Extremes<'_, '_> {
         let Self { march: &March { bridge, load, stride, h, .. }, motions } = self;
         let (modes, positions) = (bridge.modes().len().max(1), bridge.positions());
         let mut extremes = Vec::with_capacity(bridge.outputs().len() + WIDE);
+        // Groups are filled up to whole vectors; of a bridge without modes there are none.
         for (group, rows) in bridge.position_rows().chunks(modes).enumerate() {
             let rest = Some(Rest { load, group, stride });
             extremes.extend(Group { motion: &motions.q, rows, rest, h }.extremes(simd));
         }
-        extremes.truncate(positions);
+        extremes.resize(positions, Extreme::default());
         for rows in bridge.acceleration_rows().chunks(modes) {
             extremes.extend(Group { motion: &motions.a, rows, rest: None, h }.extremes(simd));
         }
-        extremes.truncate(bridge.outputs().len());
+        extremes.resize(bridge.outputs().len(), Extreme::default());
         extremes
     }
 }

@@ -3,7 +3,7 @@
 mod common;
 
 use common::{b15, b25, beams, close, modal, output, peak, run, train, with_forces};
-use ttb_passage::{Heading, Passage, Quantity, statics};
+use ttb_passage::{Heading, ModalBridge, Passage, Quantity, Settings, statics};
 use ttb_trains::{Signature, load_model};
 
 #[test]
@@ -162,6 +162,23 @@ fn histories_have_the_extremes_of_the_passage_and_take_filters() {
     for (a, b) in whole.iter().zip(half) {
         assert!((0.5 * a.max - b.max).abs() < 1e-12 && (0.5 * a.min - b.min).abs() < 1e-12);
     }
+}
+
+#[test]
+fn a_bridge_without_modes_has_static_answers_and_rests() {
+    let spec = b25();
+    let settings = Settings { forces: true, ..Settings::default() };
+    let statics = ModalBridge::of_statics(&spec, &settings).expect("a bridge");
+    let (train, modal) = (train("hslm-a3"), with_forces(&spec));
+    let passage = Passage::new(&statics, &train, Heading::Forward, None);
+    let with_modes = Passage::new(&modal, &train, Heading::Forward, None);
+    for (alone, beside) in passage.statics().iter().zip(with_modes.statics()) {
+        // The rows of the two lie at other distances.
+        let near = |a: f64, b: f64| (a - b).abs() <= 1e-3 * beside.max.max(-beside.min);
+        assert!(near(alone.max, beside.max) && near(alone.min, beside.min), "{alone:?} {beside:?}");
+    }
+    let response = passage.at(60.0);
+    assert_eq!(response.extremes.len(), statics.outputs().len());
 }
 
 /// HSLM-A at 101 speeds: `cargo test --release -p ttb-passage --test tables -- --ignored --nocapture`.
