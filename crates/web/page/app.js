@@ -82,6 +82,8 @@ async function look() {
 let timer;
 function typed() {
   byId("stale").hidden = byId("verdict") === null;
+  // What is on its way is an answer to what stood there before.
+  latest += 1;
   clearTimeout(timer);
   timer = setTimeout(look, 120);
 }
