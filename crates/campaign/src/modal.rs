@@ -114,17 +114,12 @@ impl<'a> Modal<'a> {
     fn record(&self, run: &Run, passage: &Passage, speed: f64) -> Record {
         let bridge = passage.bridge();
         let (outputs, positions) = (bridge.outputs(), bridge.positions());
-        let (response, histories) = if self.filters.is_empty() {
-            (passage.at(speed), None)
-        } else {
-            let (response, histories) = passage.with_histories(speed);
-            (response, Some(histories))
-        };
+        let (response, histories) = passage.with_histories(speed);
         let mut rows = Rows::default();
         for (k, (output, extreme)) in outputs.iter().zip(&response.extremes).enumerate() {
             rows.add(output, RAW, extreme, passage.statics().get(k));
         }
-        for (filter, histories) in self.filters.iter().zip(histories.iter().cycle()) {
+        for filter in &self.filters {
             let label = filter.label();
             let filtered = histories.accelerations(|h, signals| filter.apply_each(signals, 1.0 / h, speed * h));
             let filtered = match filtered {

@@ -10,11 +10,11 @@
 //! computed in the same order as without bounds: an extreme has the same bits. Where two of the same bits are reached, one of
 //! them is kept.
 
-use pulp::Simd;
+use pulp::{Simd, WithSimd};
 
 use crate::extreme::{Extreme, WIDE, Watch};
 use crate::lanes::{QUAD, ROUNDING, larger, smaller};
-use crate::load::Rest;
+use crate::load::{Rest, TrainLoad};
 
 /// Steps of a block.
 pub const STEPS: usize = 32;
@@ -68,9 +68,19 @@ impl Motion {
         &mut self.quads[quad][BEFORE + steps.start..BEFORE + steps.end]
     }
 
+    /// Number of modes.
+    pub fn modes(&self) -> usize {
+        self.modes
+    }
+
+    /// Number of samples.
+    pub fn samples(&self) -> usize {
+        self.samples
+    }
+
     /// The history of a mode.
-    pub fn history(&self, mode: usize) -> Vec<f64> {
-        self.quads[mode / QUAD][BEFORE..].iter().map(|row| row[mode % QUAD]).collect()
+    pub fn history(&self, mode: usize) -> impl Iterator<Item = f64> {
+        self.quads[mode / QUAD][BEFORE..].iter().map(move |row| row[mode % QUAD])
     }
 
     /// To be called when a block is filled.
@@ -98,22 +108,55 @@ impl Motion {
     }
 }
 
-/// A group of outputs over a motion: its rows Y by mode, and what it has beside the modes.
-pub struct Group<'a> {
+/// Outputs that follow a motion.
+pub struct Outputs<'a> {
     /// The motion, bounded.
     pub motion: &'a Motion,
-    /// Y, a row a mode.
+    /// Y by group, then mode.
     pub rows: &'a [[f64; WIDE]],
-    /// Rest, if there is one.
-    pub rest: Option<Rest<'a>>,
+    /// What they have beside the modes, by the tables of a train and the rows of a step; none: nothing.
+    pub rest: Option<(&'a TrainLoad, usize)>,
+    /// Number of outputs: groups are filled up to whole vectors, and of a motion without modes there are none.
+    pub count: usize,
     /// Step, s.
     pub h: f64,
+}
+
+impl Outputs<'_> {
+    /// Extremes of all of them; any instruction set gives the same bits.
+    pub fn extremes(self) -> Vec<Extreme> {
+        pulp::Arch::new().dispatch(self)
+    }
+}
+
+impl WithSimd for Outputs<'_> {
+    type Output = Vec<Extreme>;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) -> Vec<Extreme> {
+        let Self { motion, rest, h, count, .. } = self;
+        let mut extremes = Vec::with_capacity(count.next_multiple_of(WIDE));
+        for (group, rows) in self.rows.chunks(motion.modes.max(1)).enumerate() {
+            let rest = rest.map(|(load, stride)| Rest { load, group, stride });
+            extremes.extend(Group { motion, rows, rest, h }.extremes(simd));
+        }
+        extremes.resize(count, Extreme::default());
+        extremes
+    }
+}
+
+/// A group of outputs over a motion: its rows Y by mode, and what it has beside the modes.
+struct Group<'a> {
+    motion: &'a Motion,
+    rows: &'a [[f64; WIDE]],
+    rest: Option<Rest<'a>>,
+    h: f64,
 }
 
 impl Group<'_> {
     /// Extremes of the outputs from begin to end.
     #[inline(always)]
-    pub fn extremes<S: Simd>(&self, simd: S) -> [Extreme; WIDE] {
+    fn extremes<S: Simd>(&self, simd: S) -> [Extreme; WIDE] {
         self.watch(simd).finish(self.motion.samples, self.h)
     }
 

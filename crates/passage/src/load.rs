@@ -28,12 +28,10 @@ pub struct TrainLoad {
     rests: Vec<[[f32; WIDE]; 4]>,
     /// First row of every stretch.
     firsts: Vec<u32>,
-    /// Stretch of every row.
+    /// Stretch of every row; behind them the train has left.
     stretches: Vec<u32>,
     /// Bounds of rest_k over [`CHUNK`] rows each, by group.
     ranges: Vec<[[f64; WIDE]; 2]>,
-    /// Number of rows; behind them the train has left.
-    pub rows: usize,
     /// Static extremes of the outputs that follow displacements; instead of times the places s, m.
     pub statics: Vec<Extreme>,
 }
@@ -58,10 +56,8 @@ impl Rest<'_> {
     #[must_use]
     pub fn at(&self, n: usize) -> [f64; WIDE] {
         let row = n * self.stride;
-        if row >= self.load.rows {
-            return [0.0; WIDE];
-        }
-        let stretch = self.load.stretches[row] as usize;
+        let Some(stretch) = self.load.stretches.get(row) else { return [0.0; WIDE] };
+        let stretch = *stretch as usize;
         let [c0, c1, c2, c3] = &self.load.rests[stretch * self.load.groups() + self.group];
         let u = (row - self.load.firsts[stretch] as usize) as f64;
         let mut y = [0.0; WIDE];
@@ -76,7 +72,7 @@ impl Rest<'_> {
     #[must_use]
     pub fn range(&self, steps: std::ops::Range<usize>, before: usize) -> [[f64; WIDE]; 2] {
         let (first, last) = (steps.start.saturating_sub(before) * self.stride, steps.end * self.stride);
-        let chunks = first / CHUNK..(last / CHUNK + 1).min(self.load.rows.div_ceil(CHUNK));
+        let chunks = first / CHUNK..(last / CHUNK + 1).min(self.load.stretches.len().div_ceil(CHUNK));
         // Before and behind the train there is nothing.
         let (mut low, mut high) = ([0.0; WIDE], [0.0; WIDE]);
         for chunk in chunks {
@@ -117,7 +113,6 @@ impl TrainLoad {
             firsts: Vec::new(),
             stretches: Vec::with_capacity(rows),
             ranges: vec![[[0.0; WIDE]; 2]; rows.div_ceil(CHUNK) * groups],
-            rows,
             statics: vec![Extreme::default(); bridge.positions()],
         };
         let sums = Sums::new(&lines, &train.axles, grid, rows);

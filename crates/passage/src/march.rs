@@ -2,12 +2,12 @@
 //!
 //! The instruction set is chosen at run time; the order of additions and their rounding are the same with all of them.
 
-use pulp::{NullaryFnOnce, Simd, WithSimd};
+use pulp::NullaryFnOnce;
 
-use crate::block::{Group, Motion};
-use crate::extreme::{Extreme, WIDE};
+use crate::block::{Motion, Outputs};
+use crate::extreme::Extreme;
 use crate::lanes::QUAD;
-use crate::load::{Rest, TrainLoad};
+use crate::load::TrainLoad;
 use crate::modal::ModalBridge;
 use crate::recursion::Coefficients;
 
@@ -92,16 +92,27 @@ impl<'a> March<'a> {
     /// Extremes of all outputs, in the bridge's order, of its motions.
     #[must_use]
     pub fn extremes(&self, motions: &Motions) -> Vec<Extreme> {
-        pulp::Arch::new().dispatch(Extremes { march: self, motions })
+        let Self { bridge, load, stride, h, .. } = *self;
+        let (rows, rest) = (bridge.position_rows(), Some((load, stride)));
+        let positions = Outputs { motion: &motions.q, rows, rest, count: bridge.positions(), h }.extremes();
+        [positions, accelerations(bridge, &motions.a, h)].concat()
     }
 }
 
 /// Modal motions of a passage.
+#[derive(Clone, Debug)]
 pub struct Motions {
     /// q.
     pub q: Motion,
     /// q̈.
     pub a: Motion,
+}
+
+/// Extremes of all accelerations of a motion q̈, in the order of the bridge's outputs behind [`ModalBridge::positions`].
+#[must_use]
+pub fn accelerations(bridge: &ModalBridge, motion: &Motion, h: f64) -> Vec<Extreme> {
+    let count = bridge.outputs().len() - bridge.positions();
+    Outputs { motion, rows: bridge.acceleration_rows(), rest: None, count, h }.extremes()
 }
 
 /// A march under an instruction set.
@@ -136,33 +147,5 @@ impl NullaryFnOnce for Run<'_, '_> {
             q.bound(block);
             a.bound(block);
         }
-    }
-}
-
-/// Reduces all outputs under an instruction set.
-struct Extremes<'a, 'b> {
-    march: &'a March<'b>,
-    motions: &'a Motions,
-}
-
-impl WithSimd for Extremes<'_, '_> {
-    type Output = Vec<Extreme>;
-
-    #[inline(always)]
-    fn with_simd<S: Simd>(self, simd: S) -> Vec<Extreme> {
-        let Self { march: &March { bridge, load, stride, h, .. }, motions } = self;
-        let (modes, positions) = (bridge.modes().len().max(1), bridge.positions());
-        let mut extremes = Vec::with_capacity(bridge.outputs().len() + WIDE);
-        // Groups are filled up to whole vectors; of a bridge without modes there are none.
-        for (group, rows) in bridge.position_rows().chunks(modes).enumerate() {
-            let rest = Some(Rest { load, group, stride });
-            extremes.extend(Group { motion: &motions.q, rows, rest, h }.extremes(simd));
-        }
-        extremes.resize(positions, Extreme::default());
-        for rows in bridge.acceleration_rows().chunks(modes) {
-            extremes.extend(Group { motion: &motions.a, rows, rest: None, h }.extremes(simd));
-        }
-        extremes.resize(bridge.outputs().len(), Extreme::default());
-        extremes
     }
 }

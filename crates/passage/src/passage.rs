@@ -82,14 +82,14 @@ impl<'a> Passage<'a> {
             return (self.at(speed), self.histories(speed));
         }
         let (response, motions) = self.of(&self.load, speed);
-        (response, Histories::of(self.bridge, &self.load, &self.march(&self.load, speed), &motions))
+        (response, Histories::of(self.bridge, &self.load, &self.march(&self.load, speed), motions))
     }
 
     /// Modal histories at `speed` m/s, in the steps of [`Passage::at`] for speeds of 5 m/s and more.
     #[must_use]
     pub fn histories(&self, speed: f64) -> Histories<'_> {
         let march = self.march(&self.load, speed);
-        Histories::of(self.bridge, &self.load, &march, &march.motions())
+        Histories::of(self.bridge, &self.load, &march, march.motions())
     }
 
     /// The grid of a slower train, on which a step of the shared one would be too long.
