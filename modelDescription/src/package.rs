@@ -1,4 +1,4 @@
-//! The FMU archive. The same contents give the same bytes, and no other program ever sees an incomplete file.
+//! The FMU archive. The same contents give the same bytes.
 
 use crate::about::About;
 use crate::date::Date;
@@ -76,57 +76,32 @@ pub enum PackError {
         source: io::Error,
     },
     /// The FMU cannot be written.
-    #[error("{} cannot be written: {source}", path.display())]
-    Write {
-        /// Path of the file.
-        path: PathBuf,
-        /// Error of the operating system.
-        source: io::Error,
-    },
+    #[error(transparent)]
+    Write(#[from] io::Error),
 }
 
-/// Writes the FMU to `path`. A file of that name is replaced by one renaming.
+/// Writes the FMU.
 ///
 /// # Errors
 /// An interface that FMI cannot express, a file that cannot be read, an archive that cannot be written.
-pub fn pack(contents: &Contents, path: &Path) -> Result<(), PackError> {
-    let failed = |source| PackError::Write { path: path.to_path_buf(), source };
-    let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    let mut builder = tempfile::Builder::new();
-    #[cfg(unix)]
-    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o644));
-    let temporary = builder.prefix(".").suffix(".fmu.part").tempfile_in(folder).map_err(failed)?;
-
-    fill(contents, temporary.as_file(), path)?;
-    temporary.persist(path).map_err(|e| failed(e.error))?;
-    Ok(())
-}
-
-/// Writes the entries in the order that importers expect: the description first.
-fn fill(contents: &Contents, file: &File, path: &Path) -> Result<(), PackError> {
-    let mut archive =
-        Archive { zip: ZipWriter::new(BufWriter::new(file)).set_auto_large_file(), date: contents.about.date, path };
+pub fn pack(contents: &Contents, to: impl Write + io::Seek) -> Result<(), PackError> {
+    let zip = ZipWriter::new(BufWriter::new(to)).set_auto_large_file();
+    let mut archive = Archive { zip, date: contents.about.date };
     if let Err(error) = archive.entries(contents) {
         // Dropped half-way it would try to finish the archive, and print that it cannot.
         std::mem::forget(archive.zip);
         return Err(error);
     }
-    let failed = |source| PackError::Write { path: path.to_path_buf(), source };
-    let mut buffered = archive.zip.finish().map_err(|e| failed(e.into()))?;
-    buffered.flush().map_err(failed)
+    Ok(archive.zip.finish().map_err(io::Error::from)?.flush()?)
 }
 
-struct Archive<'a, W: Write + io::Seek> {
+struct Archive<W: Write + io::Seek> {
     zip: ZipWriter<W>,
     date: Option<Date>,
-    path: &'a Path,
 }
 
-impl<W: Write + io::Seek> Archive<'_, W> {
-    fn failed(&self, source: io::Error) -> PackError {
-        PackError::Write { path: self.path.to_path_buf(), source }
-    }
-
+impl<W: Write + io::Seek> Archive<W> {
+    /// Writes the entries in the order that importers expect: the description first.
     fn entries(&mut self, contents: &Contents) -> Result<(), PackError> {
         let identifier = contents.about.model_identifier;
         self.text("modelDescription.xml", &xml(contents.interface, contents.about)?)?;
@@ -145,7 +120,7 @@ impl<W: Write + io::Seek> Archive<'_, W> {
             Libraries::Bytes(bytes) => self.bytes(&name, bytes),
             Libraries::Archive(archive) => self
                 .copy(identifier, archive)
-                .map_err(|e| self.failed(e.into()))?
+                .map_err(io::Error::from)?
                 .then_some(())
                 .ok_or_else(|| PackError::NoLibrary { identifier: identifier.into() }),
         }
@@ -178,7 +153,7 @@ impl<W: Write + io::Seek> Archive<'_, W> {
             .last_modified_time(self.time())
             .system(System::Unix) // on every system, so that the same contents are the same bytes
             .unix_permissions(0o644);
-        self.zip.start_file(name, options).map_err(|e| self.failed(e.into()))
+        Ok(self.zip.start_file(name, options).map_err(io::Error::from)?)
     }
 
     fn text(&mut self, name: &str, text: &str) -> Result<(), PackError> {
@@ -187,14 +162,15 @@ impl<W: Write + io::Seek> Archive<'_, W> {
 
     fn bytes(&mut self, name: &str, bytes: &[u8]) -> Result<(), PackError> {
         self.entry(name)?;
-        self.zip.write_all(bytes).map_err(|e| self.failed(e))
+        Ok(self.zip.write_all(bytes)?)
     }
 
     fn file(&mut self, name: &str, from: &Path) -> Result<(), PackError> {
         let unreadable = |source| PackError::Read { path: from.to_path_buf(), source };
         let mut file = File::open(from).map_err(unreadable)?;
         self.entry(name)?;
-        io::copy(&mut file, &mut self.zip).map_err(|e| self.failed(e)).map(drop)
+        io::copy(&mut file, &mut self.zip)?;
+        Ok(())
     }
 
     fn folder(&mut self, name: &str, from: &Path) -> Result<(), PackError> {

@@ -31,7 +31,7 @@ fn packed(folder: &Path) -> (Fmu, Oscillator) {
         licenses: &licenses,
     };
     let path = folder.join("Oscillator.fmu");
-    pack(&contents, &path).unwrap();
+    pack(&contents, std::fs::File::create(&path).unwrap()).unwrap();
     (ttb_fmi2::import::open(&path).unwrap(), model)
 }
 

@@ -1,4 +1,4 @@
-//! The archive: deterministic, and never seen half-written.
+//! The archive. The same contents give the same bytes.
 
 use std::fs::File;
 use std::io::{self, BufWriter, Write};
@@ -21,14 +21,18 @@ pub enum Content<'a> {
 
 /// Why an archive was not written.
 #[derive(Debug, thiserror::Error)]
-#[error("{} cannot be {what}: {source}", path.display())]
-pub struct PackError {
-    /// Which file.
-    pub path: PathBuf,
-    /// Read or written.
-    pub what: &'static str,
-    /// What the system says.
-    pub source: io::Error,
+pub enum PackError {
+    /// A file cannot be read.
+    #[error("{} cannot be read: {source}", path.display())]
+    Read {
+        /// Path of the file.
+        path: PathBuf,
+        /// Error of the operating system.
+        source: io::Error,
+    },
+    /// The archive cannot be written.
+    #[error(transparent)]
+    Write(#[from] io::Error),
 }
 
 /// The date of an archive: as XML has it and as entries have it.
@@ -40,8 +44,8 @@ pub struct Stamp {
     pub entry: DateTime,
 }
 
-/// Writes the archive of a structure to `path`, replacing what was there in one stroke; `entries` are the other files by
-/// their paths inside, in this order. Without a date it carries none, so that the same contents are the same bytes.
+/// Writes the archive of a structure; `entries` are the other files by their paths inside, in this order. Without a date it
+/// carries none, so that the same contents are the same bytes.
 ///
 /// # Errors
 /// A file that cannot be read or written.
@@ -49,16 +53,10 @@ pub fn pack(
     structure: &Structure,
     entries: &[(&str, Content)],
     date: Option<&Stamp>,
-    path: &Path,
+    to: impl Write + io::Seek,
 ) -> Result<(), PackError> {
-    let failed = |source| PackError { path: path.to_path_buf(), what: "written", source };
-    let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    let mut builder = tempfile::Builder::new();
-    #[cfg(unix)]
-    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o644));
-    let temporary = builder.prefix(".").suffix(".ssp.part").tempfile_in(folder).map_err(failed)?;
-    let mut zip = ZipWriter::new(BufWriter::new(temporary.as_file())).set_auto_large_file();
-    let text = write(structure, date.map(|date| date.text.as_str())).map_err(failed)?;
+    let mut zip = ZipWriter::new(BufWriter::new(to)).set_auto_large_file();
+    let text = write(structure, date.map(|date| date.text.as_str()))?;
     let mut entry = |name: &str, content: Content| -> Result<(), PackError> {
         let method =
             if matches!(content, Content::File(_)) { CompressionMethod::Stored } else { CompressionMethod::Deflated };
@@ -68,15 +66,16 @@ pub fn pack(
             .last_modified_time(date.map_or_else(DateTime::default, |date| date.entry))
             .system(System::Unix)
             .unix_permissions(0o644);
-        zip.start_file(name, options).map_err(|e| failed(e.into()))?;
+        zip.start_file(name, options).map_err(io::Error::from)?;
         match content {
-            Content::Text(text) => zip.write_all(text.as_bytes()).map_err(failed),
+            Content::Text(text) => zip.write_all(text.as_bytes())?,
             Content::File(from) => {
-                let unreadable = |source| PackError { path: from.to_path_buf(), what: "read", source };
+                let unreadable = |source| PackError::Read { path: from.to_path_buf(), source };
                 let mut file = File::open(from).map_err(unreadable)?;
-                io::copy(&mut file, &mut zip).map_err(failed).map(drop)
+                io::copy(&mut file, &mut zip)?;
             }
         }
+        Ok(())
     };
     let written = entry(STRUCTURE, Content::Text(&text))
         .and_then(|()| entries.iter().try_for_each(|(name, content)| entry(name, *content)));
@@ -85,7 +84,5 @@ pub fn pack(
         std::mem::forget(zip);
         return Err(error);
     }
-    zip.finish().map_err(|e| failed(e.into()))?.flush().map_err(failed)?;
-    temporary.persist(path).map_err(|e| failed(e.error))?;
-    Ok(())
+    Ok(zip.finish().map_err(io::Error::from)?.flush()?)
 }

@@ -1,5 +1,7 @@
 //! From a scenario to two FMU files.
 
+use std::fs::File;
+use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -171,6 +173,6 @@ fn write<M: Model>(kind: &Kind, model: &M, files: &[(&str, Vec<u8>)], folder: &P
         resources: Some(resources.path()),
         licenses: &[("license.txt", include_str!("../../../LICENSE"))],
     };
-    whole(&path, |part| pack(&contents, part).map_err(std::io::Error::other))?;
+    whole(&path, |part| pack(&contents, File::create(part)?).map_err(io::Error::other))?;
     Ok(path)
 }

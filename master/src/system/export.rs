@@ -1,6 +1,8 @@
 //! `ttb export-ssp`: a scenario's two FMUs, how they are connected and how they are iterated, as one archive.
 
 use std::collections::BTreeMap;
+use std::fs::File;
+use std::io;
 use std::path::{Path, PathBuf};
 
 use ttb_contract::names::mean_force;
@@ -21,6 +23,7 @@ use super::resolved::bindings;
 use crate::cli::{ExportSsp, Master};
 use crate::connect::parameters;
 use crate::error::Error;
+use crate::files::whole;
 use crate::prepare::auto::decided;
 use crate::prepare::fmus;
 
@@ -57,7 +60,7 @@ pub fn export(arguments: &ExportSsp) -> Result<PathBuf, Error> {
     ];
     let date = Date::asked_for().map_err(Error::Input)?;
     let stamp = date.map(|date| Stamp { text: date.text(), entry: date.of_entry() });
-    pack(&structure, &entries, stamp.as_ref(), &path).map_err(|e| Error::Io { path: e.path, source: e.source })?;
+    whole(&path, |part| pack(&structure, &entries, stamp.as_ref(), File::create(part)?).map_err(io::Error::other))?;
     Ok(path)
 }
 

@@ -2,6 +2,8 @@
 //! with all settings. `ttb run` of it gives the same results from anywhere.
 
 use std::collections::BTreeMap;
+use std::fs::File;
+use std::io;
 use std::path::{Path, PathBuf};
 
 use ttb_fmi::description::{ModelDescription, VariableType};
@@ -14,6 +16,7 @@ use super::annotation::{Settings, write};
 use super::wiring::{Link, Side};
 use crate::connect::map::Value;
 use crate::error::Error;
+use crate::files::whole;
 
 /// Name of the archive in a folder of results.
 pub const NAME: &str = "system.resolved.ssp";
@@ -84,7 +87,7 @@ impl Resolved {
         let path = folder.join(NAME);
         let entries: Vec<(&str, Content)> =
             self.fmus.iter().map(|(name, file)| (name.as_str(), Content::File(file))).collect();
-        pack(&self.structure, &entries, None, &path).map_err(|e| Error::Io { path: e.path, source: e.source })?;
+        whole(&path, |part| pack(&self.structure, &entries, None, File::create(part)?).map_err(io::Error::other))?;
         Ok(path)
     }
 }
