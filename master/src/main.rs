@@ -27,7 +27,9 @@ fn main() {
         ttb_fmi::guard::arm();
         stop
     };
-    let code = match execute(command, &stop) {
+    let done = execute(command, &stop);
+    stop.unless_ending();
+    let code = match done {
         Ok(()) => 0,
         Err(error) => {
             ttb::note!("ttb: {error}");

@@ -16,6 +16,8 @@ use std::time::{Duration, Instant};
 
 use ttb_fmi::leave;
 
+use crate::files::abandon;
+
 /// Numbers that all Unix systems share; on Windows they stand for a console that closes, Ctrl-C and Ctrl-Break.
 const SIGHUP: i32 = 1;
 const SIGINT: i32 = 2;
@@ -51,6 +53,7 @@ pub struct Stop {
     asked: Arc<AtomicI32>,
     first: Arc<OnceLock<(i32, Instant)>>,
     flag: Arc<AtomicBool>,
+    ending: Arc<AtomicBool>,
     gentle: Arc<AtomicBool>,
     removed: Arc<Mutex<Vec<PathBuf>>>,
 }
@@ -79,7 +82,11 @@ impl Stop {
         self.asked.store(signal, Ordering::Relaxed);
         self.flag.store(true, Ordering::Relaxed);
         if !(is_first && self.gentle.load(Ordering::Relaxed)) {
-            for path in self.removed.lock().unwrap_or_else(PoisonError::into_inner).iter() {
+            self.ending.store(true, Ordering::SeqCst);
+            // Both are held until the end: nothing is made any more.
+            let _parts = abandon();
+            let removed = self.removed.lock().unwrap_or_else(PoisonError::into_inner);
+            for path in removed.iter() {
                 // A folder goes only if it is empty.
                 let _ = std::fs::remove_file(path).or_else(|_| std::fs::remove_dir(path));
             }
@@ -102,6 +109,14 @@ impl Stop {
     /// From now on a first signal is only noted: who calls this looks at [`Stop::asked`] between steps.
     pub fn gently(&self) {
         self.gentle.store(true, Ordering::Relaxed);
+    }
+
+    /// Comes back unless the end at once has begun: it removes files under a command's hands, and a command that fails for that
+    /// reason alone has no error to tell.
+    pub fn unless_ending(&self) {
+        while self.ending.load(Ordering::SeqCst) {
+            std::thread::park();
+        }
     }
 
     /// Set once a signal has asked for the end.
