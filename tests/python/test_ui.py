@@ -141,7 +141,7 @@ def test_no_request_waits_for_a_connection_that_says_nothing(page):
             idle.enter_context(socket.create_connection(("127.0.0.1", page.port)))
             begin = time.monotonic()
             assert page.ask("GET", page.path)[0] == 200
-            assert time.monotonic() - begin < 5
+            assert time.monotonic() - begin < 30
     # What is no request is not answered, and harms nobody.
     for wrong in (b"\x16\x03\x01" + 100 * b"x", b"GET /" + 40000 * b"x"):
         with socket.create_connection(("127.0.0.1", page.port), timeout=10) as other:
@@ -307,7 +307,7 @@ def test_runs_with_a_foreign_bridge_are_left_off(page, examples, tmp_path):
         time.sleep(1.5)
         assert not begun.done(), begun.result()
         page.ask("POST", f"{page.path}api/cancel?job=deck")
-        assert json.loads(begun.result(timeout=5)[2]) == []
+        assert json.loads(begun.result(timeout=30)[2]) == []
 
 
 def test_a_closed_tab_and_a_cancelled_job_leave_the_program_answering(page):
@@ -325,7 +325,7 @@ def test_a_closed_tab_and_a_cancelled_job_leave_the_program_answering(page):
     begin = time.monotonic()
     assert page.ask("POST", f"{page.path}api/cancel?job=tab")[0] == 200
     assert page.call("about")["version"]
-    assert time.monotonic() - begin < 5
+    assert time.monotonic() - begin < 30
 
 
 def test_control_c_ends_it_while_it_computes(tmp_path):
