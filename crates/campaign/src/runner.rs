@@ -12,7 +12,7 @@ use ttb_scenario::spec::StructureSpec;
 use ttb_trains::Signature;
 
 use crate::compute::{Compute, Computed};
-use crate::coupled::{Bridges, Loads, Master, OverFmu, Shared, Source, Vehicles};
+use crate::coupled::{Bridges, Loads, Master, OverFmu, Shared, Source, Task, Vehicles};
 use crate::error::Error;
 use crate::expand::Expanded;
 use crate::governing::Governing;
@@ -154,24 +154,24 @@ impl<'a> Runner<'a> {
         all
     }
 
+    fn task(&self) -> Task<'_> {
+        let Self { plan, source, facts, ref criteria, judged, keep, .. } = *self;
+        Task { plan, source, criteria, facts, judged, keep }
+    }
+
     /// Runs of axle loads step by step, with another step than the scenario's.
     pub fn loads(&self, step: Option<f64>) -> Loads<'_> {
-        let Self { plan, source, facts, criteria, judged, kept, keep, .. } = self;
-        Loads { plan, source, criteria, facts, judged: *judged, step, bridges: &kept.bridges, keep: *keep }
+        Loads { task: self.task(), step, bridges: &self.kept.bridges }
     }
 
     /// Runs of vehicles.
     pub fn vehicles(&self) -> Vehicles<'_> {
-        let Self { plan, source, facts, criteria, judged, kept, .. } = self;
-        let (abreast, keep) = (self.abreast, self.keep);
-        Vehicles { plan, source, criteria, facts, judged: *judged, shared: &kept.shared, abreast, keep }
+        Vehicles { task: self.task(), shared: &self.kept.shared, abreast: self.abreast }
     }
 
     /// Runs over the FMUs of the plan; `None`: the bridge is the scenario's own.
     fn over_fmu(&self) -> Option<OverFmu<'_>> {
-        let Self { plan, source, facts, criteria, judged, master, keep, .. } = self;
-        let of = |master| OverFmu { plan, source, criteria, facts, judged: *judged, master, keep: *keep };
-        (!plan.bridges.is_empty()).then(|| of(*master))
+        (!self.plan.bridges.is_empty()).then(|| OverFmu { task: self.task(), master: self.master })
     }
 
     fn coupled(&self, runs: &[Run], of_axles: bool, stop: &AtomicBool) -> Vec<Computed> {

@@ -1,10 +1,8 @@
 //! Runs of axle loads on a rigid track: bridge and iteration of the coupled way.
 
-use std::path::Path;
 use std::sync::atomic::AtomicBool;
 use std::sync::{Arc, Mutex, PoisonError};
 
-use ttb_assessment::{Criteria, Facts, Filter, Histories};
 use ttb_scenario::Checked;
 use ttb_scenario::deck::Deck;
 use ttb_scenario::spec::BridgeSpec;
@@ -13,12 +11,12 @@ use ttb_session::Table;
 
 use super::forces::{Passage, on_points};
 use super::vehicles::add_points;
-use super::{Source, rows};
+use super::{Task, rows};
 use crate::clock::Since;
 use crate::compute::{Compute, Computed};
 use crate::history::History;
 use crate::kept;
-use crate::plan::{Load, Plan, Run};
+use crate::plan::{Load, Run};
 use crate::record::Record;
 
 /// Periods of the first mode for which the bridge is watched after the passage, least and most, and the most time, s.
@@ -27,22 +25,12 @@ const LONGEST: f64 = 10.0;
 
 /// What runs of loads share.
 pub struct Loads<'a> {
-    /// The plan.
-    pub plan: &'a Plan,
-    /// Its scenario.
-    pub source: &'a Source,
-    /// Criteria whose values are made.
-    pub criteria: &'a Criteria,
-    /// What is known of the bridge.
-    pub facts: &'a Facts,
-    /// The filter behind which acceleration is judged.
-    pub judged: Filter,
+    /// The plan, its scenario, and what runs are reduced with.
+    pub task: Task<'a>,
     /// Step, s; `None`: the scenario's.
     pub step: Option<f64>,
     /// Bridges that are prepared.
     pub bridges: &'a Bridges,
-    /// The campaign's folder, if the history of every run is kept there.
-    pub keep: Option<&'a Path>,
 }
 
 /// Bridges that runs share, the last used first.
@@ -54,7 +42,7 @@ const KEPT: usize = 4;
 
 impl Compute for Loads<'_> {
     fn compute(&self, runs: &[Run], stop: &AtomicBool) -> Vec<Computed> {
-        runs.iter().map(|run| kept::ended(run, self.keep, || self.run(run, stop))).collect()
+        runs.iter().map(|run| kept::ended(run, self.task.keep, || self.run(run, stop))).collect()
     }
 }
 
@@ -66,14 +54,12 @@ impl Loads<'_> {
     pub fn run(&self, run: &Run, stop: &AtomicBool) -> Result<Option<(Record, History)>, String> {
         let begin = Since::now();
         let Some((checked, table)) = self.table(run, stop)? else { return Ok(None) };
-        let histories: Histories = rows::histories(&table, &checked, [0.0, checked.bridge.end]);
+        let histories = rows::histories(&table, &checked, [0.0, checked.bridge.end]);
         let record = Record {
             step: Some(checked.bridge.step),
             modes: checked.bridge.modes,
-            peaks: rows::peaks(&histories, self.criteria, self.facts),
-            envelopes: rows::envelopes(&histories, &self.judged),
             seconds: begin.seconds(),
-            ..Record::of(&run.id)
+            ..self.task.record(run, &histories)
         };
         Ok(Some((record, rows::kept(table, &checked))))
     }
@@ -83,9 +69,10 @@ impl Loads<'_> {
     /// # Errors
     /// Why it failed, a sentence.
     pub fn table(&self, run: &Run, stop: &AtomicBool) -> Result<Option<(Checked, Table)>, String> {
-        let variant = &self.plan.variants[run.variant];
-        let mut checked = self.source.varied(variant).map_err(|problems| problems.to_string())?;
-        let Load::Axles(axles) = &self.plan.trains[run.train].load else {
+        let Task { plan, source, facts, .. } = self.task;
+        let variant = &plan.variants[run.variant];
+        let mut checked = source.varied(variant).map_err(|problems| problems.to_string())?;
+        let Load::Axles(axles) = &plan.trains[run.train].load else {
             return Err("vehicles are no axle loads".into());
         };
         let speed = run.speed().unwrap_or_else(|| checked.train_track.speed.first().map_or(0.0, |point| point[1]));
@@ -95,13 +82,13 @@ impl Loads<'_> {
         let length = Deck::new(&checked.bridge.structure).map_or(0.0, |deck| deck.length);
         let last = axles.iter().map(|axle| axle[0]).fold(0.0, f64::max);
         let step = self.step.unwrap_or(checked.steps().step);
-        let end = (length + last) / speed + free_vibration(&checked.bridge, self.facts.n0_hz);
+        let end = (length + last) / speed + free_vibration(&checked.bridge, facts.n0_hz);
         add_points(&mut checked);
         checked.train_track.cars.clear();
         checked.bridge = on_points(&checked.bridge, length, step, (end / step).ceil() * step);
         checked.train_track.step = step;
         let prepared = self.prepared(&checked.bridge)?;
-        let backward = !self.plan.trains[run.train].heading.is_forward();
+        let backward = !plan.trains[run.train].heading.is_forward();
         let passage = Passage { bridge: &checked.bridge, length, axles, speed, backward, variant };
         Ok(passage.run(&prepared, stop)?.map(|table| (checked, table)))
     }

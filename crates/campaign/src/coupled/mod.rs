@@ -1,6 +1,7 @@
 //! The coupled way: both sides in this process, iterated step by step as `ttb run` does, over one shared track and bridge.
 //!
 //! ```text
+//! task       what runs are made of and reduced with
 //! source     the scenario with other values for some keys: train, speed, irregularity, variant
 //! shared     tracks and bridges that several runs and threads share
 //! vehicles   vehicles on their track over the bridge
@@ -15,10 +16,12 @@ pub mod over_fmu;
 pub mod rows;
 pub mod shared;
 pub mod source;
+pub mod task;
 pub mod vehicles;
 
 pub use loads::{Bridges, Loads};
 pub use over_fmu::{Master, OverFmu, Stepped};
 pub use shared::Shared;
 pub use source::Source;
+pub use task::Task;
 pub use vehicles::Vehicles;

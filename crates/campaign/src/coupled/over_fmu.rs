@@ -3,18 +3,17 @@
 //! FMUs are loaded and stepped by a [`Master`], which this crate does not know; what their histories are reduced to follows here.
 //! No points are added along the deck: what an FMU does not show is not judged, and said to be missing.
 
-use std::path::Path;
 use std::sync::atomic::AtomicBool;
 
-use ttb_assessment::{Criteria, Facts, Filter, Histories, reduce};
+use ttb_assessment::{Histories, reduce};
 use ttb_scenario::Checked;
 
-use super::{Source, rows};
+use super::{Task, rows};
 use crate::clock::Since;
 use crate::compute::{Compute, Computed};
 use crate::history::History;
 use crate::kept;
-use crate::plan::{Plan, Run};
+use crate::plan::Run;
 use crate::record::Record;
 
 /// Takes the steps of runs over FMUs.
@@ -40,25 +39,15 @@ pub struct Stepped {
 
 /// Runs of a plan over its FMUs.
 pub struct OverFmu<'a> {
-    /// The plan.
-    pub plan: &'a Plan,
-    /// Its scenario.
-    pub source: &'a Source,
-    /// Criteria whose values are made.
-    pub criteria: &'a Criteria,
-    /// What is known of the track.
-    pub facts: &'a Facts,
-    /// The filter behind which acceleration is judged.
-    pub judged: Filter,
+    /// The plan, its scenario, and what runs are reduced with.
+    pub task: Task<'a>,
     /// Takes the steps; without one every run fails with a message.
     pub master: Option<&'a dyn Master>,
-    /// The campaign's folder, if the history of every run is kept there.
-    pub keep: Option<&'a Path>,
 }
 
 impl Compute for OverFmu<'_> {
     fn compute(&self, runs: &[Run], stop: &AtomicBool) -> Vec<Computed> {
-        runs.iter().map(|run| kept::ended(run, self.keep, || self.run(run, stop))).collect()
+        runs.iter().map(|run| kept::ended(run, self.task.keep, || self.run(run, stop))).collect()
     }
 }
 
@@ -69,14 +58,15 @@ impl OverFmu<'_> {
     /// Why it failed, a sentence.
     pub fn run(&self, run: &Run, stop: &AtomicBool) -> Result<Option<(Record, History)>, String> {
         let begin = Since::now();
+        let Task { plan, source, criteria, facts, judged, .. } = self.task;
         let master = self.master.ok_or("the bridge is an FMU, and the program ttb alone runs FMUs")?;
-        let checked = self.source.of_run(self.plan, run).map_err(|problems| problems.to_string())?;
+        let checked = source.of_run(plan, run).map_err(|problems| problems.to_string())?;
         let Some(stepped) = master.run(checked, stop)? else { return Ok(None) };
-        let reduced = reduce(&stepped.histories, self.criteria, self.facts);
+        let reduced = reduce(&stepped.histories, criteria, facts);
         let record = Record {
             step: Some(stepped.step),
             peaks: rows::worst(reduced.peaks),
-            envelopes: rows::envelopes(&stepped.histories, &self.judged),
+            envelopes: rows::envelopes(&stepped.histories, &judged),
             missing: reduced.missing,
             remarks: stepped.remarks,
             seconds: begin.seconds(),

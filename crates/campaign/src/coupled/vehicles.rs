@@ -3,10 +3,8 @@
 //! ([`ttb_bridge::Abreast`]): there the two agree to rounding.
 
 use std::ops::ControlFlow;
-use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use ttb_assessment::{Criteria, Facts, Filter};
 use ttb_bridge::Abreast;
 use ttb_contract::ModelError;
 use ttb_scenario::Checked;
@@ -17,12 +15,12 @@ use ttb_session::observe::{Moment, Observer};
 use ttb_session::{Case, Column, Ended, Plan as Steps, RunError, Sides, Table, TimeAxis, drive_abreast};
 
 use super::rows::{self, ADDED};
-use super::{Shared, Source};
+use super::{Shared, Task};
 use crate::clock::Since;
 use crate::compute::{Compute, Computed};
 use crate::history::History;
 use crate::kept;
-use crate::plan::{Plan, Run, Variant};
+use crate::plan::{Run, Variant};
 use crate::points::deck_points;
 use crate::record::Record;
 
@@ -31,22 +29,12 @@ type Both = Sides<ttb_train_track::TrainTrack, ttb_bridge::Bridge>;
 
 /// What runs of vehicles share.
 pub struct Vehicles<'a> {
-    /// The plan.
-    pub plan: &'a Plan,
-    /// Its scenario.
-    pub source: &'a Source,
-    /// Criteria whose values are made.
-    pub criteria: &'a Criteria,
-    /// What is known of the bridge.
-    pub facts: &'a Facts,
-    /// The filter behind which acceleration is judged.
-    pub judged: Filter,
+    /// The plan, its scenario, and what runs are reduced with.
+    pub task: Task<'a>,
     /// Tracks and bridges.
     pub shared: &'a Shared,
     /// Runs that go side by side at most.
     pub abreast: usize,
-    /// The campaign's folder, if the history of every run is kept there.
-    pub keep: Option<&'a Path>,
 }
 
 /// A run that is about to begin.
@@ -78,11 +66,9 @@ impl Vehicles<'_> {
                 let record = Record {
                     step: Some(checked.steps().step),
                     modes: checked.bridge.modes,
-                    peaks: rows::peaks(&histories, self.criteria, self.facts),
-                    envelopes: rows::envelopes(&histories, &self.judged),
-                    ..Record::of(&run.id)
+                    ..self.task.record(run, &histories)
                 };
-                kept::done(record, self.keep, || rows::kept(table, &checked))
+                kept::done(record, self.task.keep, || rows::kept(table, &checked))
             }
         });
         let mut computed: Vec<Computed> = computed.collect();
@@ -141,12 +127,12 @@ impl Vehicles<'_> {
     }
 
     fn ready(&self, run: &Run) -> Result<Ready, String> {
-        let mut checked = self.source.of_run(self.plan, run).map_err(|problems| problems.to_string())?;
+        let mut checked = self.task.source.of_run(self.task.plan, run).map_err(|problems| problems.to_string())?;
         add_points(&mut checked);
         let mut prepared = self.shared.take(&checked).map_err(|error| error.to_string())?;
         let mut sides = prepared.sides(&checked).map_err(|error| error.to_string())?;
         self.shared.give(&prepared, &checked);
-        set_factors(&mut sides, &self.plan.variants[run.variant]).map_err(|error| error.to_string())?;
+        set_factors(&mut sides, &self.task.plan.variants[run.variant]).map_err(|error| error.to_string())?;
         let axis = Case::of(&checked).axis();
         Ok(Ready { checked, sides, axis })
     }

@@ -7,7 +7,7 @@ use crate::common;
 use ttb_assessment::criterion::DEFAULT;
 use ttb_assessment::peak::quantity::{DECK_ACCELERATION, DECK_DISPLACEMENT};
 use ttb_assessment::{Criteria, Filter, Phase};
-use ttb_campaign::coupled::{Bridges, Loads, Shared, Source, Vehicles};
+use ttb_campaign::coupled::{Bridges, Loads, Shared, Source, Task, Vehicles};
 use ttb_campaign::modal::Modal;
 use ttb_campaign::plan::{Load, Rail, Train, Variant};
 use ttb_campaign::request::Request;
@@ -47,7 +47,8 @@ fn a_run_of_a_sweep_has_the_bits_of_the_same_scenario_run_alone() {
     let facts = facts::of(&source.checked().expect("checked"));
     let shared = Shared::default();
     let (plan, source, criteria, facts, shared) = (&plan, &source, &criteria, &facts, &shared);
-    let with = Vehicles { plan, source, criteria, facts, judged: JUDGED, shared, abreast: 2, keep: None };
+    let with =
+        Vehicles { task: Task { plan, source, criteria, facts, judged: JUDGED, keep: None }, shared, abreast: 2 };
     let runs = plan.runs();
     for run in &runs {
         let history = with.history(run, &AtomicBool::new(false)).expect("run").expect("whole");
@@ -97,16 +98,8 @@ fn loads_on_a_rigid_track_agree_with_the_modal_way() {
     let facts = facts::of(&source.checked().expect("checked"));
     assert!((facts.n0_hz.expect("n0") - 3.5543).abs() < 1e-3);
     let bridges = Bridges::default();
-    let loads = Loads {
-        plan: &plan,
-        source: &source,
-        criteria: &criteria,
-        facts: &facts,
-        judged: JUDGED,
-        step: None,
-        bridges: &bridges,
-        keep: None,
-    };
+    let task = Task { plan: &plan, source: &source, criteria: &criteria, facts: &facts, judged: JUDGED, keep: None };
+    let loads = Loads { task, step: None, bridges: &bridges };
     let modal = Modal::new(&plan, &source, vec![JUDGED]);
     let (runs, stop) = (plan.runs(), AtomicBool::new(false));
     let (coupled, modal) = (done(loads.compute(&runs, &stop)), done(modal.compute(&runs, &stop)));
