@@ -256,6 +256,14 @@ def test_problems_stand_at_their_fields_in_the_words_of_the_check(clean, ttb, tm
     clean.click("#compute")
     clean.wait("document.querySelector('#speeds').getAttribute('aria-invalid') === 'true'")
     assert "must rise" in clean.evaluate("document.querySelector('#speeds-told').textContent")
+    # What only the plan finds stays, though a check was about to begin when Compute was clicked.
+    clean.type("#trains", "ice2")
+    clean.type("#speeds", "300:320:10")
+    clean.click("#compute")
+    shown = "document.querySelector('#problems').textContent"
+    clean.wait(f"{shown}.includes('greatest speed is below')")
+    time.sleep(0.5)
+    assert "greatest speed is below" in clean.evaluate(shown)
 
 
 def test_the_whole_task_can_be_done_by_keyboard(clean):

@@ -80,12 +80,18 @@ async function look() {
 }
 
 let timer;
+let looked = Promise.resolve();
+function lookNow() {
+  timer = undefined;
+  looked = look();
+}
+
 function typed() {
   byId("stale").hidden = byId("verdict") === null;
   // What is on its way is an answer to what stood there before.
   latest += 1;
   clearTimeout(timer);
-  timer = setTimeout(look, 120);
+  timer = setTimeout(lookNow, 120);
 }
 
 // The limits that judge: those that are ticked, and a file of the user's own.
@@ -132,6 +138,10 @@ async function start(event) {
   const controller = new AbortController();
   running = controller;
   busy(true);
+  if (timer !== undefined) {
+    clearTimeout(timer);
+    lookNow();
+  }
   const { scenario, request } = collected();
   const limits = judges();
   const asked = { scenario: JSON.stringify(scenario, null, 2), ...request, limits };
@@ -153,6 +163,8 @@ async function start(event) {
     if (error.name === "AbortError") tell("Cancelled.");
     else {
       tell("Not computed: see the problems.");
+      // Its answer knows nothing of what only the plan finds, and would take the place of this one.
+      await looked;
       report(problemsOf(error));
       const first = document.querySelector("[aria-invalid=true]");
       if (first) first.focus();
