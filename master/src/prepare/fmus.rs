@@ -173,6 +173,6 @@ fn write<M: Model>(kind: &Kind, model: &M, files: &[(&str, Vec<u8>)], folder: &P
         resources: Some(resources.path()),
         licenses: &[("license.txt", include_str!("../../../LICENSE"))],
     };
-    whole(&path, |part| pack(&contents, File::create(part)?).map_err(io::Error::other))?;
+    whole(&path, |part| pack(&contents, &File::create(part)?).map_err(io::Error::other))?;
     Ok(path)
 }

@@ -60,7 +60,7 @@ pub fn export(arguments: &ExportSsp) -> Result<PathBuf, Error> {
     ];
     let date = Date::asked_for().map_err(Error::Input)?;
     let stamp = date.map(|date| Stamp { text: date.text(), entry: date.of_entry() });
-    whole(&path, |part| pack(&structure, &entries, stamp.as_ref(), File::create(part)?).map_err(io::Error::other))?;
+    whole(&path, |part| pack(&structure, &entries, stamp.as_ref(), &File::create(part)?).map_err(io::Error::other))?;
     Ok(path)
 }
 

@@ -87,7 +87,7 @@ impl Resolved {
         let path = folder.join(NAME);
         let entries: Vec<(&str, Content)> =
             self.fmus.iter().map(|(name, file)| (name.as_str(), Content::File(file))).collect();
-        whole(&path, |part| pack(&self.structure, &entries, None, File::create(part)?).map_err(io::Error::other))?;
+        whole(&path, |part| pack(&self.structure, &entries, None, &File::create(part)?).map_err(io::Error::other))?;
         Ok(path)
     }
 }
