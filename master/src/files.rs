@@ -2,15 +2,12 @@
 
 use std::fs;
 use std::io::{self, Read, Write};
-use std::path::{Path, PathBuf};
-use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::path::Path;
 
 use sha2::{Digest, Sha256};
 
 use crate::error::Error;
-
-/// Ending of a file that is being written.
-pub const PART: &str = ".part";
+use crate::parts::Part;
 
 /// Writes a file, or leaves what was there before.
 pub fn write(path: &Path, content: &[u8]) -> Result<(), Error> {
@@ -22,36 +19,15 @@ pub fn copy(from: &Path, to: &Path) -> Result<(), Error> {
     whole(to, |part| fs::copy(from, part).map(drop))
 }
 
-/// Files that are being written.
-static PARTS: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
-
-fn parts() -> MutexGuard<'static, Vec<PathBuf>> {
-    PARTS.lock().unwrap_or_else(PoisonError::into_inner)
-}
-
 /// A file made by `make` under another name and renamed; what is left of it is removed if that fails.
 pub fn whole(path: &Path, make: impl FnOnce(&Path) -> io::Result<()>) -> Result<(), Error> {
-    let mut name = path.as_os_str().to_os_string();
-    name.push(PART);
-    let part = PathBuf::from(name);
-    parts().push(part.clone());
-    let made = make(&part).and_then(|()| fs::rename(&part, path));
+    let part = Part::of(path);
+    let made = make(part.path()).and_then(|()| fs::rename(part.path(), path));
     if made.is_err() {
         // A disk that is full gets its space back; nothing more can be done if that fails, too.
-        let _ = fs::remove_file(&part);
+        let _ = fs::remove_file(part.path());
     }
-    parts().retain(|other| *other != part);
     made.map_err(Error::io(path))
-}
-
-/// Removes every file that is being written, and lets none be begun as long as the result is held: for the end of the program.
-#[must_use]
-pub fn abandon() -> impl Sized {
-    let parts = parts();
-    for part in parts.iter() {
-        let _ = fs::remove_file(part);
-    }
-    parts
 }
 
 /// Puts one text in the place of a longer or shorter one in a small file, without asking the disk for more room; what follows

@@ -1,8 +1,9 @@
 //! The commands of `ttb` as a library, from the lowest room up:
 //!
 //! ```text
-//! error, signals           what ends a command, from inside and from outside
-//! files, clock             files that are whole or not there, processor time
+//! parts                   files that are being written
+//! error, signals          what ends a command, from inside and from outside
+//! files, clock            files that are whole or not there, processor time
 //! cli                     the command line
 //! connect                 from FMU files to two coupled subsystems
 //! results                 what a run leaves: rows, peaks, summary
@@ -42,6 +43,7 @@ pub mod commands;
 pub mod connect;
 pub mod error;
 pub mod files;
+pub mod parts;
 pub mod pictures;
 pub mod prepare;
 pub mod results;

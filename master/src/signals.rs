@@ -16,7 +16,7 @@ use std::time::{Duration, Instant};
 
 use ttb_fmi::leave;
 
-use crate::files::abandon;
+use crate::parts::abandon;
 
 /// Numbers that all Unix systems share; on Windows they stand for a console that closes, Ctrl-C and Ctrl-Break.
 const SIGHUP: i32 = 1;

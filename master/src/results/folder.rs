@@ -16,7 +16,7 @@ use std::path::{Path, PathBuf};
 use ttb_fmi::platform::identity;
 
 use crate::error::Error;
-use crate::files::PART;
+use crate::parts::PART;
 use crate::signals::Stop;
 
 /// Name of the lock.
