@@ -81,6 +81,9 @@ mod tests {
         // The name of the part is taken by a folder.
         fs::create_dir(folder.path().join("a.json.part")).unwrap();
         assert!(write(&path, b"after").is_err());
+        // It is begun, and its maker fails.
+        let other = folder.path().join("b.fmu");
+        assert!(whole(&other, |part| fs::write(part, "half").and(Err(io::Error::other("no library")))).is_err());
         assert_eq!(fs::read(&path).unwrap(), b"before");
         fs::remove_dir(folder.path().join("a.json.part")).unwrap();
         write_json(&path, &[1, 2]).unwrap();
